@@ -1,5 +1,6 @@
 #include "engine/excluded_features.h"
 
+#include <limits>
 #include <vector>
 
 #include "engine/base/parallel.h"
@@ -8,7 +9,7 @@ namespace tact {
 
 namespace {
 
-using narrowphase::FeatureFilter;
+using narrowphase::FeatureFilter, narrowphase::FeatureRules;
 
 // The caller's numbers of the vertices of a source facet; none of a plane.
 std::array<int, 3> vertices_of(const Body& body, int facet) {
@@ -25,10 +26,14 @@ void renumber(CurveSet& curves, const std::vector<int>& place_now) {
 
 void leave_out(std::vector<FacetPair>& pairs, const Body& a, const Body& b, const FeatureFilter& filter,
                CurveSet* curves) {
+  if (filter.is_uniform()) return;
   std::vector<int> place_now(pairs.size(), -1);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (!filter.allows(vertices_of(a, pairs[i].a), vertices_of(b, pairs[i].b))) continue;
+    const auto facet_of = [](const Body& body, int facet) { return body.plane != nullptr ? -1 : facet; };
+    if (!filter.allows_facets(facet_of(a, pairs[i].a), facet_of(b, pairs[i].b)) ||
+        !filter.allows_vertices(vertices_of(a, pairs[i].a), vertices_of(b, pairs[i].b)))
+      continue;
     place_now[i] = static_cast<int>(kept);
     pairs[kept++] = pairs[i];
   }
@@ -37,16 +42,22 @@ void leave_out(std::vector<FacetPair>& pairs, const Body& a, const Body& b, cons
   if (curves != nullptr) renumber(*curves, place_now);
 }
 
+// What touches or has crossed is seen whatever the margins are.
 template <class Record>
 void leave_out(Record& record, BodyId id_a, BodyId id_b, const Bodies& bodies) {
-  const FeatureFilter filter = bodies.feature_filter(id_a.index, id_b.index);
-  if (filter.is_uniform()) return;
+  const FeatureRules rules = bodies.contact_rules(id_a.index, id_b.index);
+  if (rules.are_uniform()) return;
   const Body &a = bodies.in_slot(id_a.index), &b = bodies.in_slot(id_b.index);
-  leave_out(record.facet_pairs, a, b, filter, record.curves.get());
-  leave_out(record.bare_pairs, a, b, filter, nullptr);
-  const auto is_excluded = [&](const auto& found) { return !filter.allows(found.a_vertices, found.b_vertices); };
-  std::erase_if(record.points, is_excluded);
-  std::erase_if(record.within_reach, is_excluded);
+  leave_out(record.facet_pairs, a, b, rules.filter, record.curves.get());
+  leave_out(record.bare_pairs, a, b, rules.filter, nullptr);
+  const auto is_left_out = [&](const auto& found, double gap) {
+    return (!rules.reach.is_uniform() && gap >= rules.reach.of(found.a_vertices, found.b_vertices)) ||
+           !rules.filter.allows(found.a_vertices, found.b_vertices);
+  };
+  std::erase_if(record.points, [&](const ContactPoint& point) {
+    return is_left_out(point, point.gap > 0.0 ? point.gap : -std::numeric_limits<double>::infinity());
+  });
+  std::erase_if(record.within_reach, [&](const ReachPair& pair) { return is_left_out(pair, pair.distance); });
 }
 
 }  // namespace

@@ -201,6 +201,20 @@ void World::set_self_contact(BodyId body, bool wanted) {
            [&](WorldObserver& observer) { observer.self_contact_set(body, wanted); });
 }
 
+void World::set_self_contact_filter(BodyId body, const SelfContactFilter& filter) {
+  const base::FloatingPointMode mode;
+  Implementation& i = implementation();
+  i.change([&] { i.bodies.set_self_filter(body, filter, i.settings.threads); },
+           [&](WorldObserver& observer) { observer.self_contact_filter_set(body, filter); });
+}
+
+void World::set_excluded_labels(const LabelPair& labels, bool excluded) {
+  const base::FloatingPointMode mode;
+  Implementation& i = implementation();
+  i.change([&] { i.bodies.set_excluded_labels(labels, excluded); },
+           [&](WorldObserver& observer) { observer.excluded_labels_set(labels, excluded); });
+}
+
 void World::set_observer(WorldObserver* observer) {
   const base::FloatingPointMode mode;
   Implementation& i = implementation();
@@ -310,6 +324,13 @@ FeatureLabels World::labels(BodyId body, const std::array<int, 3>& vertices) con
   return with_memory([&] { return labels_of(body_of(body), vertices); });
 }
 bool World::self_contact(BodyId body) const { return body_of(body).self_contact; }
+SelfContactFilter World::self_contact_filter(BodyId body) const {
+  const SelfFilter* const filter = body_of(body).self_filter.get();
+  return filter == nullptr ? SelfContactFilter{} : filter->view();
+}
+bool World::excluded_labels(const LabelPair& labels) const {
+  return with_memory([&] { return implementation().bodies.excluded_labels(labels); });
+}
 std::size_t World::vertex_count(BodyId body) const {
   return static_cast<std::size_t>(body_of(body).mesh.source_vertex_count());
 }

@@ -18,6 +18,8 @@ void WorldObserver::margin_set(BodyId, double) noexcept {}
 void WorldObserver::rest_offset_set(BodyId, std::optional<double>) noexcept {}
 void WorldObserver::feature_settings_set(BodyId, const FeatureSettings&) noexcept {}
 void WorldObserver::self_contact_set(BodyId, bool) noexcept {}
+void WorldObserver::self_contact_filter_set(BodyId, const SelfContactFilter&) noexcept {}
+void WorldObserver::excluded_labels_set(const LabelPair&, bool) noexcept {}
 void WorldObserver::state_restored(std::span<const std::byte>) noexcept {}
 void WorldObserver::step_begins() noexcept {}
 void WorldObserver::step_ended(const Report&) noexcept {}

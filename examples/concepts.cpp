@@ -242,6 +242,29 @@ void rest_offsets_and_labels() {
   expect(world.labels(cloth, {3, -1, -1}).vertices[0] == 14, "a vertex has its label");
 }
 
+void excluded_labels() {
+  const Mesh low = square(1.0, 0.0), high = square(1.0, 0.003);
+  tact::Settings settings;
+  settings.outputs.points = true;
+  tact::World world(settings);
+  const auto add = [&](const Mesh& mesh) {
+    return world.add_body({.positions = mesh.positions,
+                           .facets = mesh.facets,
+                           .surface = tact::Surface::sheet,
+                           .margin = 0.006,
+                           .rest_offset = 0.001});
+  };
+  const tact::BodyId body = add(low), collar = add(high);
+  const std::size_t before = world.detect().contacts()[0].points().size();
+  // [part excluded_labels]
+  const std::vector<std::uint32_t> skin{5, 5}, seam{7, 8};  // one a facet: the first of the collar is sewn on
+  world.set_feature_settings(body, {.facet_labels = skin});
+  world.set_feature_settings(collar, {.facet_labels = seam});
+  world.set_excluded_labels({.a = collar, .label_a = 7, .b = body, .label_b = 5}, true);
+  // [part excluded_labels]
+  expect(world.detect().contacts()[0].points().size() < before, "a seam does not meet what it is sewn to");
+}
+
 void saved_states() {
   const Mesh low = cube(1.0, {0, 0, 0}), high = cube(1.0, {0.2, 0.1, 0.75});
   const auto step = [&](tact::World& of, tact::BodyId moved, double down) {
@@ -295,6 +318,7 @@ int main() {
   queries();
   changed_facets();
   rest_offsets_and_labels();
+  excluded_labels();
   saved_states();
   errors();
   return failures == 0 ? 0 : 1;

@@ -44,8 +44,8 @@ Entry read_entry(ByteReader& reader) {
 
 // Settings of vertices and facets that came with an update.
 struct FeaturesOfGhost {
-  std::vector<double> rest_offsets;
-  std::vector<std::uint32_t> vertex_labels, facet_labels, vertex_layers, vertex_masks;
+  std::vector<double> rest_offsets, margins;
+  std::vector<std::uint32_t> vertex_labels, facet_labels, vertex_layers, vertex_masks, facet_layers, facet_masks;
 
   void read(ByteReader& reader) {
     rest_offsets = reader.get_all<double>();
@@ -53,8 +53,13 @@ struct FeaturesOfGhost {
     facet_labels = reader.get_all<std::uint32_t>();
     vertex_layers = reader.get_all<std::uint32_t>();
     vertex_masks = reader.get_all<std::uint32_t>();
+    facet_layers = reader.get_all<std::uint32_t>();
+    facet_masks = reader.get_all<std::uint32_t>();
+    margins = reader.get_all<double>();
   }
-  FeatureSettings view() const { return {rest_offsets, vertex_labels, facet_labels, vertex_layers, vertex_masks}; }
+  FeatureSettings view() const {
+    return {rest_offsets, vertex_labels, facet_labels, vertex_layers, vertex_masks, facet_layers, facet_masks, margins};
+  }
 };
 
 template <class Take>
@@ -93,6 +98,9 @@ void World::Implementation::write_update(std::uint64_t key, const OwnBody& body,
     update.put_all(features.facet_labels);
     update.put_all(features.vertex_layers);
     update.put_all(features.vertex_masks);
+    update.put_all(features.facet_layers);
+    update.put_all(features.facet_masks);
+    update.put_all(features.margins);
   }
   update.put(std::uint64_t{body.meshes.size()});
   for (const Bytes& mesh : body.meshes) update.put_all(mesh);

@@ -295,6 +295,10 @@ void World::set_self_contact(std::uint64_t key, bool wanted) {
   i.set(key, [&](BodyId id) { i.local.set_self_contact(id, wanted); });
 }
 
+void World::set_self_contact_filter(std::uint64_t key, const SelfContactFilter& filter) {
+  Implementation& i = implementation();
+  i.set(key, [&](BodyId id) { i.local.set_self_contact_filter(id, filter); });
+}
 void World::set_excluded(std::uint64_t key, std::uint64_t other, bool excluded) {
   Implementation& i = implementation();
   i.at(key);

@@ -13,6 +13,7 @@
 #include "engine/bodies/room.h"
 #include "engine/check_name.h"
 #include "narrowphase/mesh/cluster_quality.h"
+#include "narrowphase/mesh/source_mesh.h"
 
 namespace tact {
 
@@ -33,8 +34,6 @@ std::unique_ptr<Body> make_body(const BodyDefinition& definition, const std::str
                                      .external_id = definition.external_id,
                                      .self_contact = definition.self_contact});
 }
-
-std::size_t filters_features(const Body& body) { return body.arrays != nullptr && body.arrays->filters() ? 1 : 0; }
 
 // See Body::birth. Of what the mesh keeps: a vertex that no facet uses is no part of it.
 std::uint64_t birth_of(std::uint32_t slot, std::uint64_t key, std::uint64_t step, const Body& body) {
@@ -132,7 +131,7 @@ void Bodies::put(std::uint32_t slot, std::unique_ptr<Body> body, const Place& pl
   if (place.is_rigid) make_rigid(body->mesh, *slots_[slot].rigid);
   rigid_count_ += place.is_rigid ? 1 : 0;
   self_count_ += body->self_contact ? 1 : 0;
-  filter_count_ += filters_features(*body);
+  filter_count_ += body->filters_features() ? 1 : 0;
   if (body->plane != nullptr) planes_.insert(std::ranges::lower_bound(planes_, slot), slot);
   slots_[slot].body = std::move(body);
   packed_meshes_.add(slots_[slot].body->mesh);
@@ -173,12 +172,13 @@ void Bodies::remove(BodyId id) {
   keys_.forget(id.index);
   rigid_count_ -= is_rigid(id.index) ? 1 : 0;
   self_count_ -= slots_[id.index].body->self_contact ? 1 : 0;
-  filter_count_ -= filters_features(*slots_[id.index].body);
+  filter_count_ -= slots_[id.index].body->filters_features() ? 1 : 0;
   if (slots_[id.index].body->plane != nullptr) std::erase(planes_, id.index);
   slots_[id.index].body.reset();
   if (is_rigid(id.index)) rigid_states_.give_back(std::exchange(slots_[id.index].rigid, nullptr));
   boxes_[id.index] = base::Box{};
   excluded_.remove_all_of(id.index);
+  excluded_labels_.remove_all_of(id.index);
   // No id is given out twice: a slot whose generations are used up stays empty.
   if (id.generation < std::numeric_limits<std::uint32_t>::max()) free_.push_back(id.index);
   groupings_.forget(id.index);
@@ -255,6 +255,10 @@ void Bodies::set_margin(BodyId id, double margin) {
   if (margin < least)
     throw Error(ErrorCode::invalid_argument, quoted(body.name) + ": margin is " + base::text_of(margin) +
                                                  ", less than a rest offset of " + base::text_of(least));
+  if (body.arrays != nullptr && margin < body.arrays->largest_margin)
+    throw Error(ErrorCode::invalid_argument, quoted(body.name) + ": margin is " + base::text_of(margin) +
+                                                 ", less than that of a vertex, " +
+                                                 base::text_of(body.arrays->largest_margin));
   if (margins_[id.index] == margin) return;
   margins_[id.index] = margin;
   boxes_[id.index] = base::grown(body.mesh.rough_box(), margin);
@@ -263,7 +267,11 @@ void Bodies::set_margin(BodyId id, double margin) {
 }
 
 void Bodies::set_rest_offset(BodyId id, std::optional<double> rest_offset) {
-  check_rest_offset(rest_offset, margins_[at(id).id.index], at(id).name);
+  const FeatureArrays* const arrays = at(id).arrays.get();
+  const bool is_of_vertices = arrays != nullptr && arrays->rest_offsets.empty();
+  check_rest_offset(rest_offset,
+                    is_of_vertices ? std::min(margins_[id.index], arrays->least_margin) : margins_[id.index],
+                    at(id).name);
   const double value = rest_offset.value_or(kAsMargin);
   if (rest_offsets_[id.index] == value) return;
   rest_offsets_[id.index] = value;
@@ -273,31 +281,52 @@ void Bodies::set_rest_offset(BodyId id, std::optional<double> rest_offset) {
 void Bodies::set_feature_settings(BodyId id, const FeatureSettings& settings) {
   const narrowphase::ClusteredMesh& mesh = at(id).mesh;
   check_feature_settings(settings, static_cast<std::size_t>(mesh.source_vertex_count()),
-                         static_cast<std::size_t>(mesh.surface_facet_count()), margins_[id.index], at(id).name);
+                         static_cast<std::size_t>(mesh.surface_facet_count()),
+                         {margins_[id.index], given_rest_offset(id.index)}, at(id).name);
   Body& body = *slots_[id.index].body;
   std::unique_ptr<FeatureArrays> made = copy_of(settings);
-  // Labels change no answer.
   const FeatureSettings last = body.arrays == nullptr ? FeatureSettings{} : body.arrays->view();
-  const bool is_same = std::ranges::equal(last.rest_offsets, settings.rest_offsets) &&
-                       std::ranges::equal(last.vertex_layers, settings.vertex_layers) &&
-                       std::ranges::equal(last.vertex_masks, settings.vertex_masks);
-  if (!is_same) mark_moved(id.index);
-  filter_count_ -= filters_features(body);
+  if (!answer_alike(last, settings, excluded_labels_.has_any_of(id.index))) mark_moved(id.index);
+  filter_count_ -= body.filters_features() ? 1 : 0;
   body.arrays = std::move(made);
-  filter_count_ += filters_features(body);
+  filter_count_ += body.filters_features() ? 1 : 0;
 }
 
 narrowphase::SurfaceOffset Bodies::offset_of(std::uint32_t slot) const {
   const FeatureArrays* const arrays = in_slot(slot).arrays.get();
-  if (arrays == nullptr || arrays->rest_offsets.empty()) return {.largest = rest_offset(slot)};
-  return {arrays->largest_rest_offset, arrays->rest_offsets};
+  if (arrays != nullptr && !arrays->rest_offsets.empty()) return {arrays->largest_rest_offset, arrays->rest_offsets};
+  return rest_offsets_[slot] == kAsMargin ? margin_of(slot)
+                                          : narrowphase::SurfaceOffset{.largest = rest_offsets_[slot]};
 }
 
-narrowphase::VertexFilter Bodies::vertex_filter(std::uint32_t slot) const {
-  narrowphase::VertexFilter filter{.layer = filters_[slot].layer, .mask = filters_[slot].mask};
+narrowphase::SurfaceOffset Bodies::margin_of(std::uint32_t slot) const {
+  const FeatureArrays* const arrays = in_slot(slot).arrays.get();
+  if (arrays == nullptr || arrays->margins.empty()) return {.largest = margins_[slot]};
+  return {arrays->largest_margin, arrays->margins};
+}
+
+narrowphase::FeatureFilter Bodies::feature_filter(std::uint32_t a, std::uint32_t b) const {
+  const ExcludedLabels::OfBodies* const labels = excluded_labels_.empty() ? nullptr : excluded_labels_.find(a, b);
+  narrowphase::FeatureFilter filter{.a = surface_filter(a, labels != nullptr),
+                                    .b = surface_filter(b, labels != nullptr)};
+  if (labels != nullptr) {
+    filter.excluded_of_facets = labels->of_facets;
+    filter.excluded_of_vertices = labels->of_vertices;
+  }
+  if (a == b && in_slot(a).self_filter != nullptr) filter.neighbors = in_slot(a).self_filter->neighbors.get();
+  return filter;
+}
+
+narrowphase::SurfaceFilter Bodies::surface_filter(std::uint32_t slot, bool by_labels) const {
+  narrowphase::SurfaceFilter filter{
+      .layer = filters_[slot].layer, .mask = filters_[slot].mask, .surface = featured(slot)};
   if (const FeatureArrays* const arrays = in_slot(slot).arrays.get(); arrays != nullptr) {
-    filter.layers = arrays->vertex_layers;
-    filter.masks = arrays->vertex_masks;
+    filter.of_vertices = {.layers = arrays->vertex_layers, .masks = arrays->vertex_masks};
+    filter.of_facets = {.layers = arrays->facet_layers, .masks = arrays->facet_masks};
+    if (by_labels) {
+      filter.of_vertices.labels = arrays->vertex_labels;
+      filter.of_facets.labels = arrays->facet_labels;
+    }
   }
   return filter;
 }
@@ -307,6 +336,44 @@ void Bodies::set_self_contact(BodyId id, bool wanted) {
   slots_[id.index].body->self_contact = wanted;
   self_count_ += wanted ? 1 : std::size_t{0} - 1;
   mark_moved(id.index);
+}
+
+void Bodies::set_self_filter(BodyId id, const SelfContactFilter& given, int threads) {
+  const std::uint32_t slot = at(id).id.index;
+  const narrowphase::ClusteredMesh& mesh = placed(slot).mesh;
+  std::unique_ptr<SelfFilter> made = made_of(given, source_positions(mesh, mesh.points()), at(id).name);
+  if (are_same(made.get(), in_slot(slot).self_filter.get())) return;
+  if (made != nullptr) {
+    make_features({&slot, 1}, threads);
+    find_neighbors(*made, featured(slot));
+  }
+  Body& body = *slots_[slot].body;
+  filter_count_ -= body.filters_features() ? 1 : 0;
+  body.self_filter = std::move(made);
+  filter_count_ += body.filters_features() ? 1 : 0;
+  mark_moved(slot);
+}
+
+void Bodies::check_labels(const LabelPair& labels) const {
+  for (const BodyId id : {labels.a, labels.b}) {
+    if (at(id).plane != nullptr)
+      throw Error(ErrorCode::invalid_argument, quoted(at(id).name) + " is a plane: nothing of it has a label");
+  }
+  check_name(labels.kind, LabelKind::vertex, quoted(at(labels.a).name) + ": kind of labels");
+  if (labels.label_a == 0 || labels.label_b == 0)
+    throw Error(ErrorCode::invalid_argument, quoted(at(labels.a).name) + ": label 0 is that of what has none");
+}
+
+void Bodies::set_excluded_labels(const LabelPair& labels, bool excluded) {
+  if (this->excluded_labels(labels) == excluded) return;
+  excluded_labels_.set(labels, excluded);
+  mark_moved(labels.a.index);
+  mark_moved(labels.b.index);
+}
+
+bool Bodies::excluded_labels(const LabelPair& labels) const {
+  check_labels(labels);
+  return excluded_labels_.contains(labels);
 }
 
 void Bodies::find_kdops(int threads) {

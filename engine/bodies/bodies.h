@@ -20,12 +20,14 @@
 #include "engine/bodies/checks.h"
 #include "engine/bodies/cluster_groupings.h"
 #include "engine/bodies/columns.h"
+#include "engine/bodies/excluded_labels.h"
 #include "engine/bodies/excluded_pairs.h"
 #include "engine/bodies/feature_arrays.h"
 #include "engine/bodies/lasting_names.h"
 #include "engine/bodies/packed_meshes.h"
 #include "engine/bodies/pair_choice.h"
 #include "engine/bodies/rigid_states.h"
+#include "engine/bodies/self_filter.h"
 #include "narrowphase/contact_points/contact_points.h"
 #include "narrowphase/mesh/clustered_mesh.h"
 #include "narrowphase/mesh/refit.h"
@@ -51,8 +53,12 @@ struct alignas(64) Body {
   std::unique_ptr<const narrowphase::ClusterNeighbors> neighbors = nullptr;  // when it is first held against itself
   std::unique_ptr<const narrowphase::HalfSpace> plane = nullptr;             // of a plane, whose mesh is empty
   std::vector<double> begin = {};  // where it was in the last step, once it has moved twice since: a placement
-  std::unique_ptr<LastingNames> names = nullptr;    // once its facets have changed
-  std::unique_ptr<FeatureArrays> arrays = nullptr;  // if there are any settings of vertices and facets
+  std::unique_ptr<LastingNames> names = nullptr;      // once its facets have changed
+  std::unique_ptr<FeatureArrays> arrays = nullptr;    // if there are any settings of vertices and facets
+  std::unique_ptr<SelfFilter> self_filter = nullptr;  // if any neighbours are left out
+
+  // Whether less is found of single features than of the whole body.
+  bool filters_features() const { return (arrays != nullptr && arrays->filters()) || self_filter != nullptr; }
 };
 
 class Bodies {
@@ -81,6 +87,10 @@ class Bodies {
   void set_rest_offset(BodyId id, std::optional<double> rest_offset);
   void set_feature_settings(BodyId id, const FeatureSettings& settings);
   void set_self_contact(BodyId id, bool wanted);
+  void set_self_filter(BodyId id, const SelfContactFilter& filter, int threads);
+  void set_excluded_labels(const LabelPair& labels, bool excluded);
+  // Errors: stale_body, foreign_body, invalid_argument.
+  bool excluded_labels(const LabelPair& labels) const;
 
   bool contains(BodyId id) const noexcept;
   // Whether a body was ever added, also one that was removed.
@@ -120,10 +130,12 @@ class Bodies {
   // How near surfaces of two bodies, or of one, must come to touch.
   narrowphase::FeatureReach rest(std::uint32_t a, std::uint32_t b) const { return {offset_of(a), offset_of(b)}; }
   // Which of their features are tested against each other; whether there are any bodies of which not all are.
-  narrowphase::FeatureFilter feature_filter(std::uint32_t a, std::uint32_t b) const {
-    return {vertex_filter(a), vertex_filter(b)};
+  narrowphase::FeatureFilter feature_filter(std::uint32_t a, std::uint32_t b) const;
+  bool any_feature_filter() const { return filter_count_ > 0 || !excluded_labels_.empty(); }
+  // The same, and how near features must come to be in contact, at most reach().
+  narrowphase::FeatureRules contact_rules(std::uint32_t a, std::uint32_t b) const {
+    return {.reach = {margin_of(a), margin_of(b)}, .filter = feature_filter(a, b)};
   }
-  bool any_feature_filter() const { return filter_count_ > 0; }
   // The mesh of a body with its features, which make_features() made.
   narrowphase::FeaturedMesh featured(std::uint32_t slot) const {
     return {&in_slot(slot).mesh, in_slot(slot).features.get()};
@@ -310,7 +322,9 @@ class Bodies {
   }
   void set_filter(BodyId id, const broadphase::Filter& filter);
   narrowphase::SurfaceOffset offset_of(std::uint32_t slot) const;
-  narrowphase::VertexFilter vertex_filter(std::uint32_t slot) const;
+  narrowphase::SurfaceOffset margin_of(std::uint32_t slot) const;
+  narrowphase::SurfaceFilter surface_filter(std::uint32_t slot, bool by_labels) const;
+  void check_labels(const LabelPair& labels) const;
   template <class OfBody>
   void check_named_once(std::span<const OfBody> updates);
 
@@ -359,6 +373,7 @@ class Bodies {
   std::vector<Removed> removed_;  // sorted by id from update_order() on
   std::uint64_t steps_ = 0;
   ExcludedPairs excluded_;
+  ExcludedLabels excluded_labels_;
   std::int64_t vertices_ = 0;
   std::int64_t moved_vertices_ = 0;
   std::size_t rigid_count_ = 0, self_count_ = 0, filter_count_ = 0;
@@ -381,6 +396,7 @@ struct Bodies::NewMesh {
   narrowphase::ClusteredMesh mesh;
   std::unique_ptr<LastingNames> names;
   std::unique_ptr<FeatureArrays> arrays;
+  std::unique_ptr<SelfFilter> self_filter;
   std::unique_ptr<const narrowphase::Features> features;           // if the body had some
   std::unique_ptr<const narrowphase::ClusterNeighbors> neighbors;  // likewise
   Begin begin;

@@ -137,7 +137,8 @@ Bodies::NewMesh Bodies::make_mesh(BodyId id, const MeshUpdate& update, int threa
                             : ClusteredMesh(first, given.facets(), order, given.last()),
       .names = make_names(body, vertex_map, keepers, still.turned),
       .arrays = carried(body.arrays.get(), vertex_map, update.facet_map,
-                        {rest_offset(id.index), filters_[id.index].layer, filters_[id.index].mask}),
+                        {margins_[id.index], rest_offset(id.index), filters_[id.index].layer, filters_[id.index].mask}),
+      .self_filter = carried(body.self_filter.get(), vertex_map, given.positions()),
       .features = nullptr,
       .neighbors = nullptr,
       .begin = Begin::here,
@@ -145,9 +146,11 @@ Bodies::NewMesh Bodies::make_mesh(BodyId id, const MeshUpdate& update, int threa
   if (!begin.empty() && refit(made.mesh, given.positions().data(), {.threads = threads}) == narrowphase::Refit::changed)
     made.begin = Begin::before;
   made.mesh.begin_travel_after(last);
-  if (body.features != nullptr) made.features = std::make_unique<const narrowphase::Features>(made.mesh);
+  if (body.features != nullptr || made.self_filter != nullptr)
+    made.features = std::make_unique<const narrowphase::Features>(made.mesh);
   if (body.neighbors != nullptr)
     made.neighbors = std::make_unique<const narrowphase::ClusterNeighbors>(made.mesh, *made.features);
+  if (made.self_filter != nullptr) find_neighbors(*made.self_filter, {&made.mesh, made.features.get()});
   made.is_outward = made.has_inside && is_outward(made.mesh);
   made.vertices.id = id;
   const std::vector<int> vertex_of_source = vertices_of_sources(made.mesh);
@@ -170,9 +173,10 @@ void Bodies::set_mesh(NewMesh&& made) noexcept {
   body.has_inside = made.has_inside;
   body.is_outward = made.is_outward;
   body.names = std::move(made.names);
-  const auto filters = [](const FeatureArrays* arrays) { return arrays != nullptr && arrays->filters(); };
-  if (filters(body.arrays.get()) && !filters(made.arrays.get())) --filter_count_;
+  filter_count_ -= body.filters_features() ? 1 : 0;
   body.arrays = std::move(made.arrays);
+  body.self_filter = std::move(made.self_filter);
+  filter_count_ += body.filters_features() ? 1 : 0;
   body.features = std::move(made.features);
   body.neighbors = std::move(made.neighbors);
   of_slot.begin = made.begin;

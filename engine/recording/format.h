@@ -1,6 +1,6 @@
 // What a recording is made of.
 //
-// The file, version 7. Numbers are little-endian, doubles as IEEE 754 has them, without padding between them:
+// The file, version 8. Numbers are little-endian, doubles as IEEE 754 has them, without padding between them:
 //
 //   head      "tactrec\n", u32 version, text: the version of tact that wrote it
 //   settings  u8 1, i32 threads, u8 accuracy, u8 direction policy, f64 gjk_tolerance, i32 iteration_limit, u8 zones,
@@ -37,9 +37,13 @@
 //   rest      u8 23, body, f64 metres, or -1: the margin; since version 7, as are the next two. After the body is
 //   added,
 //             if it is given, and wherever it changed
-//   features  u8 24, body, five u64: rest offsets, labels of vertices, labels of facets, layers and masks of vertices;
-//             then these, f64 each rest offset, u32 each other
+//   features  u8 24, body, eight u64: rest offsets, labels of vertices, labels of facets, layers and masks of vertices,
+//             layers and masks of facets, margins of vertices, the last three since version 8; then these, f64 each
+//             offset and margin, u32 each other
 //   map       u8 25, u64 facets, i32 each: the facet that it was, or -1; of the body whose facets are set next
+//   neighbors u8 26, body, i32 rings, f64 distance at rest, u64 vertices, 3 f64 a vertex: where they are at rest, or
+//             none: where they are; this and the next since version 8
+//   labels    u8 27, body, u32 label, body, u32 label, u8 kind, u8: whether they are excluded
 //
 // A text is u32 bytes and these; a body is u32 index and u32 generation of its BodyId; enumerations are numbered in the
 // order of their values. Outputs::trace is left out: it changes no answer. The records stand in the order of the calls;
@@ -52,7 +56,7 @@
 namespace tact::recording {
 
 inline constexpr std::string_view kMagic = "tactrec\n";
-inline constexpr std::uint32_t kVersion = 7;
+inline constexpr std::uint32_t kVersion = 8;
 inline constexpr double kAsMargin = -1.0;  // of a rest offset
 
 enum class RecordKind : std::uint8_t {
@@ -80,8 +84,10 @@ enum class RecordKind : std::uint8_t {
   within_reach = 22,
   rest_offset = 23,
   features = 24,
-  facet_map = 25
+  facet_map = 25,
+  neighbors = 26,
+  excluded_labels = 27
 };
-inline constexpr RecordKind kLastRecordKind = RecordKind::facet_map;
+inline constexpr RecordKind kLastRecordKind = RecordKind::excluded_labels;
 
 }  // namespace tact::recording

@@ -233,13 +233,34 @@ void Recorder::rest_offset_set(BodyId body, std::optional<double> rest_offset) n
 void Recorder::feature_settings_set(BodyId body, const FeatureSettings& settings) noexcept {
   write([&](std::ostream& out) {
     const std::array others{settings.vertex_labels, settings.facet_labels, settings.vertex_layers,
-                            settings.vertex_masks};
+                            settings.vertex_masks,  settings.facet_layers, settings.facet_masks};
     put_value(out, RecordKind::features, body, static_cast<std::uint64_t>(settings.rest_offsets.size()));
     for (const auto& numbers : others) put(out, static_cast<std::uint64_t>(numbers.size()));
+    put(out, static_cast<std::uint64_t>(settings.margins.size()));
     for (const double offset : settings.rest_offsets) put(out, offset);
     for (const auto& numbers : others) {
       for (const std::uint32_t number : numbers) put(out, number);
     }
+    for (const double margin : settings.margins) put(out, margin);
+  });
+}
+
+void Recorder::self_contact_filter_set(BodyId body, const SelfContactFilter& filter) noexcept {
+  write([&](std::ostream& out) {
+    put_value(out, RecordKind::neighbors, body, std::int32_t{filter.rings});
+    put(out, filter.rest_distance);
+    put(out, static_cast<std::uint64_t>(filter.rest_positions.cols()));
+    put_columns(out, filter.rest_positions);
+  });
+}
+
+void Recorder::excluded_labels_set(const LabelPair& labels, bool excluded) noexcept {
+  write([&](std::ostream& out) {
+    put_value(out, RecordKind::excluded_labels, labels.a, labels.label_a);
+    put_body(out, labels.b);
+    put(out, labels.label_b);
+    put(out, static_cast<std::uint8_t>(labels.kind));
+    put(out, std::uint8_t{excluded});
   });
 }
 

@@ -121,6 +121,8 @@ struct RecordingPlayer::Implementation {
         return make([&] { world->set_rest_offset(body, is_given ? std::optional(offset) : std::nullopt); });
       }
       case RecordKind::features: return set_feature_settings();
+      case RecordKind::neighbors: return set_self_contact_filter();
+      case RecordKind::excluded_labels: return set_excluded_labels();
       case RecordKind::facet_map: {
         next_facet_map = read_all<std::int32_t>(reader.read<std::uint64_t>());
         return;
@@ -282,19 +284,44 @@ struct RecordingPlayer::Implementation {
 
   void set_feature_settings() {
     const BodyId body = read_body();
-    const auto offsets = reader.read<std::uint64_t>();
-    std::array<std::uint64_t, 4> counts{};
-    for (std::uint64_t& count : counts) count = reader.read<std::uint64_t>();
-    const std::vector<double> rest_offsets = read_all<double>(offsets);
-    std::array<std::vector<std::uint32_t>, 4> others;
-    for (std::size_t i = 0; i < others.size(); ++i) others[i] = read_all<std::uint32_t>(counts[i]);
+    const std::size_t count = version < 8 ? 5 : 8;
+    std::array<std::uint64_t, 8> counts{};
+    for (std::size_t i = 0; i < count; ++i) counts[i] = reader.read<std::uint64_t>();
+    const std::vector<double> rest_offsets = read_all<double>(counts[0]);
+    std::array<std::vector<std::uint32_t>, 6> others;
+    for (std::size_t i = 0; i < others.size(); ++i) others[i] = read_all<std::uint32_t>(counts[i + 1]);
+    const std::vector<double> margins = read_all<double>(counts[7]);
     make([&] {
       world->set_feature_settings(body, {.rest_offsets = rest_offsets,
                                          .vertex_labels = others[0],
                                          .facet_labels = others[1],
                                          .vertex_layers = others[2],
-                                         .vertex_masks = others[3]});
+                                         .vertex_masks = others[3],
+                                         .facet_layers = others[4],
+                                         .facet_masks = others[5],
+                                         .margins = margins});
     });
+  }
+
+  void set_self_contact_filter() {
+    const BodyId body = read_body();
+    const auto rings = reader.read<std::int32_t>();
+    const auto rest_distance = reader.read<double>();
+    const Eigen::Matrix3Xd rest = read_columns<double>(reader.read<std::uint64_t>());
+    make([&] {
+      world->set_self_contact_filter(body, {.rings = rings, .rest_distance = rest_distance, .rest_positions = rest});
+    });
+  }
+
+  void set_excluded_labels() {
+    LabelPair labels;
+    labels.a = read_body();
+    labels.label_a = reader.read<std::uint32_t>();
+    labels.b = read_body();
+    labels.label_b = reader.read<std::uint32_t>();
+    labels.kind = read_enumeration(LabelKind::vertex);
+    const bool excluded = read_flag();
+    make([&] { world->set_excluded_labels(labels, excluded); });
   }
 
   void set_poses() {

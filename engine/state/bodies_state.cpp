@@ -93,9 +93,9 @@ void StateFields::write_body(const Bodies& bodies, std::uint32_t slot, const Mes
 // former; see take_ids().
 void StateFields::write(const Bodies& bodies, std::span<const BodyId> gone, StateWriter& writer) {
   const auto& [world, tuning, packed_meshes, slots, generations, former, rigid_states, free, boxes, filters, margins,
-               rest_offsets, keys, tree, kdops, groupings, changed, count, removed, steps, excluded, vertices,
-               moved_vertices, rigid_count, self_count, filter_count, planes, placed_boxes, placed_count, farthest_rest,
-               pose_changed, to_place, updates, new_kdops, without_features, named, choice] = bodies;
+               rest_offsets, keys, tree, kdops, groupings, changed, count, removed, steps, excluded, excluded_labels,
+               vertices, moved_vertices, rigid_count, self_count, filter_count, planes, placed_boxes, placed_count,
+               farthest_rest, pose_changed, to_place, updates, new_kdops, without_features, named, choice] = bodies;
   writer(steps, std::uint64_t{count});
   std::vector<char> is_free(slots.size(), 0);
   for (const std::uint32_t slot : free) is_free[slot] = 1;
@@ -109,13 +109,27 @@ void StateFields::write(const Bodies& bodies, std::span<const BodyId> gone, Stat
     write_body(bodies, slot, mesh_state(bodies, slot), writer);
   }
   const auto& [excluded_pairs, excluded_changed] = excluded;
-  writer(free, closed, excluded_pairs);
+  writer(free, closed, excluded_pairs, std::vector(excluded_labels.all().begin(), excluded_labels.all().end()));
   std::vector<Bodies::Removed> kept;  // of those that the next step names
   std::ranges::copy_if(removed, std::back_inserter(kept),
                        [&](const Bodies::Removed& one) { return std::ranges::binary_search(gone, one.id); });
   std::ranges::sort(kept, {}, [](const Bodies::Removed& one) { return one.id.index; });
   writer(std::uint64_t{kept.size()});
   for (const auto& [id, key, birth] : kept) writer(id.index, key, birth);
+}
+
+// Finds what of a filter is not saved.
+void StateFields::read_neighbors(StateReader& reader, Body& body) {
+  constexpr const char* kName = "of a state";
+  SelfFilter& filter = *body.self_filter;
+  check_self_filter(filter.rings, filter.rest_distance, kName);
+  const auto vertices = static_cast<std::size_t>(body.mesh.source_vertex_count());
+  reader.check(filter.rest_positions.size() == (filter.rest_distance > 0.0 ? 3 * vertices : 0),
+               "there are not as many positions at rest as vertices");
+  check_positions(filter.rest_positions.data(), filter.rest_positions.size() / 3, kName);
+  reader.check(filter.rings > 0 || filter.rest_distance > 0.0, "a filter leaves out nothing");
+  body.features = std::make_unique<const narrowphase::Features>(body.mesh);
+  find_neighbors(filter, {&body.mesh, body.features.get()});
 }
 
 // Reads a body into a slot that is there: first where it was in the last step, then where it is now.
@@ -154,10 +168,13 @@ void StateFields::read_body(StateReader& reader, Bodies& bodies, std::uint32_t s
   reader.check(body->names == nullptr || body->names->vertex_count() == state.vertex_count,
                "there are not as many names as vertices");
   if (body->arrays != nullptr) {
-    check_feature_settings(body->arrays->view(), state.vertex_count,
-                           static_cast<std::size_t>(body->mesh.surface_facet_count()), place.margin, kName);
+    check_feature_settings(
+        body->arrays->view(), state.vertex_count, static_cast<std::size_t>(body->mesh.surface_facet_count()),
+        {place.margin, place.rest_offset == Bodies::kAsMargin ? std::nullopt : std::optional(place.rest_offset)},
+        kName);
     body->arrays = copy_of(body->arrays->view());
   }
+  if (body->self_filter != nullptr) read_neighbors(reader, *body);
   reader.check(grouping.quality >= 0.0 && grouping.tries <= ClusterGroupings::kMostDoublings,
                "clusters have no quality");
   bodies.make_room_for(slot, place);
@@ -198,7 +215,8 @@ void StateFields::read_slots(StateReader& reader, Bodies& bodies) {
   }
   std::vector<std::uint32_t> closed;
   std::vector<broadphase::IndexPair>& excluded = bodies.excluded_.pairs_;
-  reader(bodies.free_, closed, excluded);
+  std::vector<ExcludedLabels::OfBodies> labels;
+  reader(bodies.free_, closed, excluded, labels);
   const std::size_t slots = count + bodies.free_.size() + closed.size();
   add_slots(bodies, slots);
   std::vector<char> is_empty(slots, 0);
@@ -210,6 +228,11 @@ void StateFields::read_slots(StateReader& reader, Bodies& bodies) {
   for (const auto& [a, b] : excluded)
     reader.check(a < b && b < slots && bodies.used(a) && bodies.used(b), "an excluded body is not there");
   reader.check(std::ranges::is_sorted(excluded), "excluded pairs are not sorted");
+  for (const auto& [pair, of_facets, of_vertices] : labels)
+    reader.check(pair.a < slots && pair.b < slots && bodies.used(pair.a) && bodies.used(pair.b) &&
+                     bodies.plane(pair.a) == nullptr && bodies.plane(pair.b) == nullptr,
+                 "a body with excluded labels is not there");
+  reader.check(bodies.excluded_labels_.put(std::move(labels)), "excluded labels are not in order");
 }
 
 // A body has the id that it has in the other world, or had there last: that with the same birth in the same slot.

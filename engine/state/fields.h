@@ -123,19 +123,34 @@ struct StateFields {
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, Body>& body) {
     auto& [mesh, id, name, surface, has_inside, external_id, self_contact, is_outward, birth, features, neighbors,
-           plane, begin, names, arrays] = body;
+           plane, begin, names, arrays, self_filter] = body;
     archive(name, surface, has_inside, external_id, self_contact, is_outward, birth);
-    bool has_names = names != nullptr, has_arrays = arrays != nullptr;
-    archive(has_names, has_arrays);
+    bool has_names = names != nullptr, has_arrays = arrays != nullptr, has_self_filter = self_filter != nullptr;
+    archive(has_names, has_arrays, has_self_filter);
     if (has_names) archive.pointee(names);
     if (has_arrays) archive.pointee(arrays);
+    if (has_self_filter) archive.pointee(self_filter);
   }
 
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, FeatureArrays>& arrays) {
-    // Found again: largest_rest_offset.
-    auto& [rest_offsets, vertex_labels, facet_labels, vertex_layers, vertex_masks, largest_rest_offset] = arrays;
-    archive(rest_offsets, vertex_labels, facet_labels, vertex_layers, vertex_masks);
+    // Found again: the largest and the least.
+    auto& [rest_offsets, margins, vertex_labels, facet_labels, vertex_layers, vertex_masks, facet_layers, facet_masks,
+           largest_rest_offset, largest_margin, least_margin] = arrays;
+    archive(rest_offsets, margins, vertex_labels, facet_labels, vertex_layers, vertex_masks, facet_layers, facet_masks);
+  }
+
+  // Found again: neighbors.
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, SelfFilter>& filter) {
+    auto& [rings, rest_distance, rest_positions, neighbors] = filter;
+    archive(rings, rest_distance, rest_positions);
+  }
+
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, ExcludedLabels::OfBodies>& labels) {
+    auto& [bodies, of_facets, of_vertices] = labels;
+    archive(bodies, of_facets, of_vertices);
   }
 
   // By others: body, rigid and begin, as a MeshState; fixed, as part of the filter. Dropped: the rest.
@@ -342,6 +357,7 @@ struct StateFields {
   static MeshState mesh_state(const Bodies& bodies, std::uint32_t slot);
   static void write_body(const Bodies& bodies, std::uint32_t slot, const MeshState& mesh, StateWriter& writer);
   static void read_body(StateReader& reader, Bodies& bodies, std::uint32_t slot);
+  static void read_neighbors(StateReader& reader, Body& body);
 
   // Of whole worlds: bodies_state.cpp, step_state.cpp. `gone`, sorted, are bodies that were removed since the last step
   // and that the next one names; `old` are those of the world, whose ids stay.

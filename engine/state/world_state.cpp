@@ -14,7 +14,7 @@ namespace tact {
 namespace {
 
 constexpr std::string_view kMagic = "tactstat";
-constexpr std::uint32_t kVersion = 3;  // of the bytes: another one where any list of fields changes
+constexpr std::uint32_t kVersion = 4;  // of the bytes: another one where any list of fields changes
 
 // What stands before the content.
 struct Head {

@@ -128,5 +128,71 @@ TEST_F(FeatureSettingsOfC, GoWithAMeshOfEdges) {
   EXPECT_EQ(tact_world_set_facets_by(world_, sheet_, nullptr), TACT_ERROR_NULL_ARGUMENT);
 }
 
+TEST_F(FeatureSettingsOfC, LeaveOutBelowTheBody) {
+  const std::uint32_t layers[2] = {1, 2}, labels[2] = {20, 21};
+  const double margins[4] = {0.1, 0.1, 0.1, 0.02};
+  tact_plane_definition plane = TACT_PLANE_DEFINITION_INIT;
+  plane.mask = 1;
+  plane.margin = 0.0;
+  tact_body_definition definition = TACT_BODY_DEFINITION_INIT;
+  definition.positions = {kPositions, 4, 24, TACT_FLOAT64};
+  definition.facets = {kFacets, 2, 12, TACT_INT32};
+  definition.surface = TACT_SURFACE_SHEET;
+  definition.margin = 0.1;
+  EXPECT_EQ(tact_world_remove_body(world_, sheet_), TACT_OK);
+  EXPECT_EQ(tact_world_remove_body(world_, floor_), TACT_OK);
+  EXPECT_EQ(tact_world_add_body(world_, &definition, &sheet_), TACT_OK);
+  EXPECT_EQ(tact_world_add_plane(world_, &plane, &floor_), TACT_OK);
+  tact_feature_settings settings = TACT_FEATURE_SETTINGS_INIT;
+  settings.facet_layers = layers;
+  settings.facet_layer_count = 2;
+  settings.facet_labels = labels;
+  settings.facet_label_count = 2;
+  EXPECT_EQ(tact_world_set_feature_settings(world_, sheet_, &settings), TACT_OK);
+  contact();
+  EXPECT_EQ(points(), 3u) << "vertex 3 is of the second facet alone";
+  settings.facet_layer_count = 0;
+  settings.margins = margins;
+  settings.margin_count = 4;
+  EXPECT_EQ(tact_world_set_feature_settings(world_, sheet_, &settings), TACT_OK);
+  contact();
+  EXPECT_EQ(points(), 3u);
+  tact_feature_settings found = TACT_FEATURE_SETTINGS_INIT;
+  EXPECT_EQ(tact_world_feature_settings(world_, sheet_, &found), TACT_OK);
+  ASSERT_TRUE(found.margin_count == 4 && found.facet_layer_count == 0 && found.facet_mask_count == 0);
+  EXPECT_EQ(found.margins[3], 0.02);
+  bool excluded = true;
+  tact_label_pair pair = {sheet_, 20, sheet_, 21, TACT_LABEL_FACET};
+  EXPECT_EQ(tact_world_excluded_labels(world_, &pair, &excluded), TACT_OK);
+  EXPECT_FALSE(excluded);
+  EXPECT_EQ(tact_world_set_excluded_labels(world_, &pair, true), TACT_OK);
+  pair = {sheet_, 21, sheet_, 20, TACT_LABEL_FACET};
+  EXPECT_EQ(tact_world_excluded_labels(world_, &pair, &excluded), TACT_OK);
+  EXPECT_TRUE(excluded);
+  pair.kind = 2;
+  EXPECT_EQ(tact_world_set_excluded_labels(world_, &pair, true), TACT_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(tact_world_set_excluded_labels(world_, nullptr, true), TACT_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(tact_world_excluded_labels(world_, nullptr, &excluded), TACT_ERROR_NULL_ARGUMENT);
+}
+
+TEST_F(FeatureSettingsOfC, NeighboursAreSetAndGiven) {
+  tact_self_contact_filter filter = TACT_SELF_CONTACT_FILTER_INIT;
+  EXPECT_EQ(tact_world_self_contact_filter(world_, sheet_, &filter), TACT_OK);
+  EXPECT_TRUE(filter.rings == 0 && filter.rest_distance == 0.0 && filter.rest_positions.count == 0);
+  filter.rings = 2;
+  filter.rest_distance = 0.5;
+  EXPECT_EQ(tact_world_set_self_contact_filter(world_, sheet_, &filter), TACT_OK);
+  EXPECT_EQ(tact_world_self_contact_filter(world_, sheet_, &filter), TACT_OK);
+  ASSERT_TRUE(filter.rings == 2 && filter.rest_distance == 0.5 && filter.rest_positions.count == 4);
+  EXPECT_EQ(static_cast<const double*>(filter.rest_positions.first)[3], 1.0);
+  EXPECT_EQ(tact_world_set_self_contact_filter(world_, sheet_, &filter), TACT_OK) << "what is given can be set";
+  filter.rest_positions.count = 3;
+  EXPECT_EQ(tact_world_set_self_contact_filter(world_, sheet_, &filter), TACT_ERROR_WRONG_SIZE);
+  filter.rings = 17;
+  EXPECT_EQ(tact_world_set_self_contact_filter(world_, sheet_, &filter), TACT_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(tact_world_set_self_contact_filter(world_, sheet_, nullptr), TACT_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(tact_world_self_contact_filter(world_, sheet_, nullptr), TACT_ERROR_NULL_ARGUMENT);
+}
+
 }  // namespace
 }  // namespace tact::tests

@@ -202,8 +202,16 @@ class EveryCallOfC {
     tact_feature_settings features = TACT_FEATURE_SETTINGS_INIT;
     features.rest_offsets = offsets.data();
     features.rest_offset_count = offsets.size();
+    features.margins = offsets.data();
+    features.margin_count = offsets.size();
     call([&] { return tact_world_set_feature_settings(world_, bodies_[0], &features); });
     call([&] { return tact_world_set_self_contact(world_, bodies_[0], true); });
+    tact_self_contact_filter filter = TACT_SELF_CONTACT_FILTER_INIT;
+    filter.rings = 1;
+    filter.rest_distance = rest_offset;
+    call([&] { return tact_world_set_self_contact_filter(world_, bodies_[0], &filter); });
+    const tact_label_pair labels = {bodies_[0], 1, bodies_[1], 2, TACT_LABEL_FACET};
+    call([&] { return tact_world_set_excluded_labels(world_, &labels, true); });
   }
 
   void tell_motion() {
@@ -264,6 +272,11 @@ class EveryCallOfC {
       call([&] { return tact_world_labels(world_, body, vertex, &labels); });
       tell(std::uint64_t{labels.facet});
       call([&] { return tact_world_self_contact(world_, body, &flag); });
+      tact_self_contact_filter filter = TACT_SELF_CONTACT_FILTER_INIT;
+      call([&] { return tact_world_self_contact_filter(world_, body, &filter); });
+      tell({&filter.rest_distance, 1});
+      const tact_label_pair pair = {bodies_[0], 1, bodies_[1], 2, TACT_LABEL_FACET};
+      call([&] { return tact_world_excluded_labels(world_, &pair, &flag); });
       call([&] { return tact_world_vertex_count(world_, body, &vertices); });
       call([&] { return tact_world_facet_count(world_, body, &facets); });
       std::vector<double> coordinates(3 * vertices);

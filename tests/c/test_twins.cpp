@@ -115,6 +115,8 @@ TEST(TwinsInC, OfEachField) {
   expect_twins_of_fields("body.h", "struct Plane {", "tact_plane", {});
   expect_twins_of_fields("body.h", "struct FeatureSettings {", "tact_feature_settings", {});
   expect_twins_of_fields("body.h", "struct FeatureLabels {", "tact_feature_labels", {});
+  expect_twins_of_fields("body.h", "struct SelfContactFilter {", "tact_self_contact_filter", {});
+  expect_twins_of_fields("body.h", "struct LabelPair {", "tact_label_pair", {});
   expect_twins_of_fields("world.h", "struct MeshUpdate {", "tact_mesh_update", {});
   expect_twins_of_fields("body.h", "struct BodyId {", "tact_body", {});
   expect_twins_of_fields("report.h", "struct Contact {", "tact_contact", {});

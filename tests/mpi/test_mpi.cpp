@@ -252,7 +252,9 @@ void run_churn(const std::string& name, Size size, const BeforeDetect& before) {
         if (drawn(26, n, t, 20) == 0) {
           std::vector<std::uint32_t> masks(static_cast<std::size_t>(positions.cols()), ~0u);
           for (std::size_t v = 0; v < masks.size(); v += 3) masks[v] = static_cast<std::uint32_t>(drawn(27, n, t, 4));
-          world.set_feature_settings(body, {.vertex_labels = masks, .vertex_masks = masks});
+          const std::vector<double> margins(drawn(29, n, t, 2) == 0 ? masks.size() : 0, 0.0);  // whatever the body's is
+          world.set_feature_settings(body, {.vertex_labels = masks, .vertex_masks = masks, .margins = margins});
+          world.set_self_contact_filter(body, {.rings = drawn(30, n, t, 3)});
         }
       });
       const int other = drawn(21, n, t, size.bodies);

@@ -1,4 +1,4 @@
-"""Rest offsets, labels, layers and masks of vertices, and meshes of edges that change."""
+"""Settings of vertices and facets, what they leave out, and meshes of edges that change."""
 
 import numpy as np
 import pytest
@@ -46,6 +46,57 @@ def test_masks_leave_out(scene):
     world.set_feature_settings(sheet, vertex_masks=[1, 1, 0, 1], vertex_layers=[1, 1, 1, 2])
     assert len(world.detect().contacts[0].points) == 3
     assert world.feature_settings(sheet).vertex_layers.tolist() == [1, 1, 1, 2]
+
+
+def test_facets_and_margins_leave_out(scene):
+    world, sheet = scene
+    floor = next(body for body in world.bodies if body != sheet)
+    world.set_layers(floor, 1, 1)
+    world.set_feature_settings(sheet, facet_layers=[1, 2], facet_masks=[2**32 - 1, 1])
+    assert len(world.detect().contacts[0].points) == 3
+    world.set_feature_settings(sheet, margins=[0.1, 0.01, 0.1, 0.1], rest_offsets=np.zeros(4))
+    world.set_margin(floor, 0.0)
+    points = world.detect().contacts[0].points
+    assert sorted(points.a_vertices[:, 0].tolist()) == [0, 2, 3]
+    assert world.feature_settings(sheet).margins.tolist() == [0.1, 0.01, 0.1, 0.1]
+    assert len(world.feature_settings(sheet).facet_layers) == 0
+
+
+def test_labels_are_excluded(scene):
+    world, sheet = scene
+    other = world.add_body(SQUARE + [0, 0, 0.05], FACETS, surface=tact.Surface.sheet, margin=0.1)
+    for body in (sheet, other):
+        world.set_feature_settings(body, facet_labels=[7, 7], vertex_labels=[1, 2, 2, 2])
+
+    def touching():
+        pairs = [c for c in world.detect().contacts if {c.a, c.b} == {sheet, other}]
+        return bool(pairs) and pairs[0].touching
+
+    assert touching()
+    world.set_excluded_labels(sheet, 7, other, 7, True)
+    assert world.excluded_labels(other, 7, sheet, 7)
+    assert not world.excluded_labels(other, 7, sheet, 7, kind=tact.LabelKind.vertex)
+    assert not touching()
+    world.set_excluded_labels(other, 7, sheet, 7, False)
+    assert touching()
+    with pytest.raises(tact.Error, match="label 0"):
+        world.set_excluded_labels(sheet, 0, other, 7, True)
+
+
+def test_neighbours_are_left_out():
+    world = tact.World(tact.Settings(within_reach=True))
+    x = np.column_stack([0.1 * np.arange(12), np.zeros((12, 2))])
+    edges = np.column_stack([np.arange(11), np.arange(1, 12)])
+    rope = world.add_body(x, edges=edges, margin=0.12, self_contact=True)
+    assert len(world.detect().contacts[0].within_reach) > 0
+    world.set_self_contact_filter(rope, rings=3)
+    assert len(world.detect().contacts) == 0
+    assert world.self_contact_filter(rope).rings == 3
+    world.set_self_contact_filter(rope, rest_distance=0.31, rest_positions=x)
+    assert len(world.detect().contacts) == 0
+    assert np.array_equal(world.self_contact_filter(rope).rest_positions, x)
+    world.set_self_contact_filter(rope)
+    assert len(world.detect().contacts) == 1
 
 
 def test_meshes_of_edges_change(scene):

@@ -55,6 +55,8 @@ CHANGES = {
     "set_rest_offset": lambda w, b: w.set_rest_offset(b[2], None),
     "set_feature_settings": lambda w, b: w.set_feature_settings(b[1], vertex_labels=np.arange(len(w.positions(b[1])))),
     "set_self_contact": lambda w, b: w.set_self_contact(b[2], True),
+    "set_self_contact_filter": lambda w, b: w.set_self_contact_filter(b[2], rings=1),
+    "set_excluded_labels": lambda w, b: w.set_excluded_labels(b[2], 1, b[3], 2, True),
     "set_motion": lambda w, b: w.set_motion(b[2], tact.Motion.fixed),
     "set_layers": lambda w, b: w.set_layers(b[2], 1, 1),
     "set_group": lambda w, b: w.set_group(b[2], 1),

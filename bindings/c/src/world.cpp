@@ -97,6 +97,14 @@ PoseUpdate pose_of(tact_body body, const double* rotation, const double* transla
           Eigen::Map<const Eigen::Vector3d>(translation)};
 }
 
+LabelPair label_pair_of(const tact_label_pair& labels) {
+  return {.a = id_of(labels.a),
+          .label_a = labels.label_a,
+          .b = id_of(labels.b),
+          .label_b = labels.label_b,
+          .kind = static_cast<LabelKind>(labels.kind)};
+}
+
 std::optional<double> given_if(bool is_given, double value) { return is_given ? std::optional(value) : std::nullopt; }
 
 // An array that may be null where it is empty.
@@ -305,12 +313,34 @@ tact_error tact_world_set_feature_settings(tact_world world, tact_body body, con
                                                    .vertex_labels = array_of(s.vertex_labels, s.vertex_label_count),
                                                    .facet_labels = array_of(s.facet_labels, s.facet_label_count),
                                                    .vertex_layers = array_of(s.vertex_layers, s.vertex_layer_count),
-                                                   .vertex_masks = array_of(s.vertex_masks, s.vertex_mask_count)});
+                                                   .vertex_masks = array_of(s.vertex_masks, s.vertex_mask_count),
+                                                   .facet_layers = array_of(s.facet_layers, s.facet_layer_count),
+                                                   .facet_masks = array_of(s.facet_masks, s.facet_mask_count),
+                                                   .margins = array_of(s.margins, s.margin_count)});
   });
 }
 
 tact_error tact_world_set_self_contact(tact_world world, tact_body body, bool wanted) {
   return changing(world, [&](WorldEntry& entry) { entry.world.set_self_contact(id_of(body), wanted); });
+}
+
+tact_error tact_world_set_self_contact_filter(tact_world world, tact_body body,
+                                              const tact_self_contact_filter* filter) {
+  return changing(world, [&](WorldEntry& entry) {
+    check_not_null(filter);
+    const tact_self_contact_filter f =
+        tact::c::read_struct(*filter, tact_self_contact_filter TACT_SELF_CONTACT_FILTER_INIT);
+    entry.world.set_self_contact_filter(id_of(body), {.rings = f.rings,
+                                                      .rest_distance = f.rest_distance,
+                                                      .rest_positions = columns_of<tact::Positions>(f.rest_positions)});
+  });
+}
+
+tact_error tact_world_set_excluded_labels(tact_world world, const tact_label_pair* labels, bool excluded) {
+  return changing(world, [&](WorldEntry& entry) {
+    check_not_null(labels);
+    entry.world.set_excluded_labels(tact::c::label_pair_of(*labels), excluded);
+  });
 }
 
 tact_error tact_world_detect(tact_world world) {
@@ -435,7 +465,33 @@ tact_error tact_world_feature_settings(tact_world world, tact_body body, tact_fe
     result.vertex_layer_count = found.vertex_layers.size();
     result.vertex_masks = found.vertex_masks.data();
     result.vertex_mask_count = found.vertex_masks.size();
+    result.facet_layers = found.facet_layers.data();
+    result.facet_layer_count = found.facet_layers.size();
+    result.facet_masks = found.facet_masks.data();
+    result.facet_mask_count = found.facet_masks.size();
+    result.margins = found.margins.data();
+    result.margin_count = found.margins.size();
     tact::c::write_struct(*settings, result);
+  });
+}
+
+tact_error tact_world_self_contact_filter(tact_world world, tact_body body, tact_self_contact_filter* filter) {
+  return reading(world, [&](const WorldEntry& entry) {
+    check_not_null(filter);
+    const tact::SelfContactFilter found = entry.world.self_contact_filter(id_of(body));
+    tact_self_contact_filter result = TACT_SELF_CONTACT_FILTER_INIT;
+    result.rings = found.rings;
+    result.rest_distance = found.rest_distance;
+    result.rest_positions.first = found.rest_positions.first();
+    result.rest_positions.count = static_cast<size_t>(found.rest_positions.cols());
+    tact::c::write_struct(*filter, result);
+  });
+}
+
+tact_error tact_world_excluded_labels(tact_world world, const tact_label_pair* labels, bool* excluded) {
+  return reading(world, [&](const WorldEntry& entry) {
+    check_not_null(labels, excluded);
+    *excluded = entry.world.excluded_labels(tact::c::label_pair_of(*labels));
   });
 }
 

@@ -212,13 +212,27 @@ void define_bodies(WorldClass& world) {
       .def(
           "set_feature_settings",
           [](RankWorld& w, std::uint64_t key, py::handle rest_offsets, py::handle vertex_labels,
-             py::handle facet_labels, py::handle vertex_layers, py::handle vertex_masks) {
-            const FeatureSettingsArgument given(rest_offsets, vertex_labels, facet_labels, vertex_layers, vertex_masks);
+             py::handle facet_labels, py::handle vertex_layers, py::handle vertex_masks, py::handle facet_layers,
+             py::handle facet_masks, py::handle margins) {
+            const FeatureSettingsArgument given(rest_offsets, vertex_labels, facet_labels, vertex_layers, vertex_masks,
+                                                facet_layers, facet_masks, margins);
             w.use().set_feature_settings(key, given.settings());
           },
           py::arg("key"), py::kw_only(), py::arg("rest_offsets") = py::list(), py::arg("vertex_labels") = py::list(),
           py::arg("facet_labels") = py::list(), py::arg("vertex_layers") = py::list(),
-          py::arg("vertex_masks") = py::list())
+          py::arg("vertex_masks") = py::list(), py::arg("facet_layers") = py::list(),
+          py::arg("facet_masks") = py::list(), py::arg("margins") = py::list())
+      .def(
+          "set_self_contact_filter",
+          [](RankWorld& w, std::uint64_t key, int rings, double rest_distance, py::handle rest) {
+            std::optional<PositionsArgument> given;
+            if (!rest.is_none()) given.emplace(rest, "rest_positions");
+            w.use().set_self_contact_filter(key, {.rings = rings,
+                                                  .rest_distance = rest_distance,
+                                                  .rest_positions = given ? given->columns() : Positions::none()});
+          },
+          py::arg("key"), py::kw_only(), py::arg("rings") = 0, py::arg("rest_distance") = 0.0,
+          py::arg("rest_positions") = py::none())
       .def(
           "set_self_contact",
           [](RankWorld& w, std::uint64_t key, bool wanted) { w.use().set_self_contact(key, wanted); }, py::arg("key"),

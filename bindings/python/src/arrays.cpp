@@ -204,16 +204,20 @@ std::span<const Number> all_of(const py::array_t<Number>& array) {
 
 FeatureSettingsArgument::FeatureSettingsArgument(py::handle rest_offsets, py::handle vertex_labels,
                                                  py::handle facet_labels, py::handle vertex_layers,
-                                                 py::handle vertex_masks)
+                                                 py::handle vertex_masks, py::handle facet_layers,
+                                                 py::handle facet_masks, py::handle margins)
     : rest_offsets_(doubles_of(row_from(rest_offsets, "rest_offsets"), "rest_offsets")),
+      margins_(doubles_of(row_from(margins, "margins"), "margins")),
       vertex_labels_(bits_of(vertex_labels, "vertex_labels")),
       facet_labels_(bits_of(facet_labels, "facet_labels")),
       vertex_layers_(bits_of(vertex_layers, "vertex_layers")),
-      vertex_masks_(bits_of(vertex_masks, "vertex_masks")) {}
+      vertex_masks_(bits_of(vertex_masks, "vertex_masks")),
+      facet_layers_(bits_of(facet_layers, "facet_layers")),
+      facet_masks_(bits_of(facet_masks, "facet_masks")) {}
 
 FeatureSettings FeatureSettingsArgument::settings() const {
   return {all_of(rest_offsets_), all_of(vertex_labels_), all_of(facet_labels_), all_of(vertex_layers_),
-          all_of(vertex_masks_)};
+          all_of(vertex_masks_), all_of(facet_layers_),  all_of(facet_masks_),  all_of(margins_)};
 }
 
 std::string type_name(py::handle of) { return text_of(py::type::of(of).attr("__name__")); }

@@ -73,18 +73,19 @@ class MeshArguments {
   py::array_t<int> points_, vertex_map_, facet_map_;
 };
 
-/// Settings of single vertices and facets, given as arrays of shape (V,) or (F,); all but offsets are 0 to 2^32 - 1.
+/// Settings of single vertices and facets, given as arrays of shape (V,) or (F,); all but distances are 0 to 2^32 - 1.
 /// @throws TypeError, ValueError as above.
 class FeatureSettingsArgument {
  public:
   FeatureSettingsArgument(py::handle rest_offsets, py::handle vertex_labels, py::handle facet_labels,
-                          py::handle vertex_layers, py::handle vertex_masks);
+                          py::handle vertex_layers, py::handle vertex_masks, py::handle facet_layers,
+                          py::handle facet_masks, py::handle margins);
   /// Valid as long as this.
   FeatureSettings settings() const;
 
  private:
-  py::array_t<double> rest_offsets_;
-  py::array_t<std::uint32_t> vertex_labels_, facet_labels_, vertex_layers_, vertex_masks_;
+  py::array_t<double> rest_offsets_, margins_;
+  py::array_t<std::uint32_t> vertex_labels_, facet_labels_, vertex_layers_, vertex_masks_, facet_layers_, facet_masks_;
 };
 
 /// Integers given as an array of shape (N,), each of 32 bits. @throws TypeError, ValueError as above.

@@ -264,13 +264,13 @@ void define_world(py::module_& module) {
       .def("set_positions", set_positions, py::arg("body"), py::arg("positions"), "positions: (V, 3) in metres")
       .def("set_positions", set_many_positions, py::arg("positions"),
            "{body: (V, 3) in metres}: all of them or, after an error, none")
-      .def(
-          "set_facets", set_facets, py::arg("body"), py::arg("positions"), py::arg("facets"), py::arg("vertex_map"),
-          py::kw_only(), py::arg("edges") = py::list(), py::arg("points") = py::list(),
-          py::arg("facet_map") = py::list(),
-          "gives a body other vertices and facets; `vertex_map` tells of each new vertex which old one it was, or -1. "
-          "(V, 3) in metres, (F, 3), and (V,); edges: (E, 2); points: (P,); facet_map: (F,), the old facet whose label "
-          "each has, or -1")
+      .def("set_facets", set_facets, py::arg("body"), py::arg("positions"), py::arg("facets"), py::arg("vertex_map"),
+           py::kw_only(), py::arg("edges") = py::list(), py::arg("points") = py::list(),
+           py::arg("facet_map") = py::list(),
+           "gives a body other vertices and facets; `vertex_map` tells of each new vertex which old one it was, or -1. "
+           "(V, 3) in metres, (F, 3), and (V,); edges: (E, 2); points: (P,); facet_map: (F,), the old facet whose "
+           "label, "
+           "layer and mask each has, or -1")
       .def("set_pose", set_pose, py::arg("body"), py::arg("rotation"), py::arg("translation"),
            "places a rigid body: a vertex added at p stands at rotation * p + translation. (3, 3), and (3,) metres")
       .def("set_poses", set_poses, py::arg("poses"), "places many rigid bodies in parallel, all or none")

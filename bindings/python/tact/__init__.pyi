@@ -58,6 +58,17 @@ class Surface:
     def __int__(self) -> int: ...
     def __hash__(self) -> int: ...
 
+class LabelKind:
+    """What has a label."""
+
+    facet: ClassVar[LabelKind]
+    vertex: ClassVar[LabelKind]
+    name: str
+    value: int
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    def __hash__(self) -> int: ...
+
 class Motion:
     """How a body moves."""
 
@@ -937,6 +948,28 @@ class FeatureSettings:
     @property
     def vertex_masks(self) -> npt.NDArray[np.uint32]:
         """(V,): the layers that each vertex is tested against; by default those of the body"""
+    @property
+    def facet_layers(self) -> npt.NDArray[np.uint32]:
+        """(F,): the layers that each facet is on, a bit each; by default those of the body"""
+    @property
+    def facet_masks(self) -> npt.NDArray[np.uint32]:
+        """(F,): the layers that each facet is tested against; by default those of the body"""
+    @property
+    def margins(self) -> Floats:
+        """(V,): how far ahead of each vertex contact points are seen, metres, 0 to the margin of the body"""
+
+class SelfContactFilter:
+    """Which features of a body that is tested against itself are too near to each other to be tested."""
+
+    @property
+    def rings(self) -> int:
+        """features with vertices at most so many edges apart are left out, 0 to 16; 0 adds none"""
+    @property
+    def rest_distance(self) -> float:
+        """features with vertices at most so far apart at rest are left out, metres, 0 to LARGEST_COORDINATE; 0 leaves out none"""
+    @property
+    def rest_positions(self) -> Floats:
+        """(V, 3): where vertices are at rest, metres; by default where they are when the filter is set"""
 
 class World:
     """A set of bodies and the contacts among them."""
@@ -994,7 +1027,7 @@ class World:
         points: npt.ArrayLike = ...,
         facet_map: npt.ArrayLike = ...,
     ) -> None:
-        """gives a body other vertices and facets; `vertex_map` tells of each new vertex which old one it was, or -1. (V, 3) in metres, (F, 3), and (V,); edges (E, 2); points (P,); of each facet the old one whose label it has, or -1: (F,)"""
+        """gives a body other vertices and facets; `vertex_map` tells of each new vertex which old one it was, or -1. (V, 3) in metres, (F, 3), and (V,); edges (E, 2); points (P,); of each facet the old one whose label, layer and mask it has, or -1: (F,)"""
     def set_pose(self, body: BodyId, rotation: npt.ArrayLike, translation: npt.ArrayLike) -> None:
         """places a rigid body: a vertex added at p stands at rotation * p + translation. (3, 3), and (3,) metres"""
     @overload
@@ -1145,8 +1178,27 @@ class World:
         facet_labels: npt.ArrayLike = ...,
         vertex_layers: npt.ArrayLike = ...,
         vertex_masks: npt.ArrayLike = ...,
+        facet_layers: npt.ArrayLike = ...,
+        facet_masks: npt.ArrayLike = ...,
+        margins: npt.ArrayLike = ...,
     ) -> None:
-        """replaces the settings of single vertices and facets of a body. (V,), facet_labels (F,); an empty array sets nothing"""
+        """replaces the settings of single vertices and facets of a body. (V,), those of facets (F,); an empty array sets nothing"""
+    def set_self_contact_filter(
+        self,
+        body: BodyId,
+        *,
+        rings: int = ...,
+        rest_distance: float = ...,
+        rest_positions: npt.ArrayLike | None = ...,
+    ) -> None:
+        """sets which features of a body are too near to each other to be tested against each other. Positions at rest: (V, 3) metres, by default where vertices are now"""
+    def self_contact_filter(self, body: BodyId) -> SelfContactFilter:
+        """which features of a body are too near to be tested, valid until that or its facets change"""
+    def set_excluded_labels(
+        self, a: BodyId, label_a: int, b: BodyId, label_b: int, excluded: bool, *, kind: LabelKind = ...
+    ) -> None:
+        """sets whether features of two labels are excluded from tests: a collar and what it is sewn to, say"""
+    def excluded_labels(self, a: BodyId, label_a: int, b: BodyId, label_b: int, *, kind: LabelKind = ...) -> bool: ...
     def feature_settings(self, body: BodyId) -> FeatureSettings:
         """returns the settings of single vertices and facets of a body, valid until they or its facets change"""
     def labels(self, body: BodyId, vertices: npt.ArrayLike) -> npt.NDArray[np.uint32]:

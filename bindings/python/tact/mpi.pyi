@@ -221,8 +221,19 @@ class World:
         facet_labels: npt.ArrayLike = ...,
         vertex_layers: npt.ArrayLike = ...,
         vertex_masks: npt.ArrayLike = ...,
+        facet_layers: npt.ArrayLike = ...,
+        facet_masks: npt.ArrayLike = ...,
+        margins: npt.ArrayLike = ...,
     ) -> None: ...
     def set_self_contact(self, key: int, wanted: bool) -> None: ...
+    def set_self_contact_filter(
+        self,
+        key: int,
+        *,
+        rings: int = ...,
+        rest_distance: float = ...,
+        rest_positions: npt.ArrayLike | None = ...,
+    ) -> None: ...
     def set_excluded(self, key: int, other: int, excluded: bool) -> None: ...
     def detect(self) -> Report:
         """Together."""

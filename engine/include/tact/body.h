@@ -83,6 +83,40 @@ struct FeatureSettings {
   /// The layers that each vertex is tested against; by default those of the body. Two features are tested if each
   /// vertex of the one is tested against each vertex of the other.
   std::span<const std::uint32_t> vertex_masks = {};
+  /// The layers that each facet is on, a bit each; by default those of the body.
+  std::span<const std::uint32_t> facet_layers = {};
+  /// The layers that each facet is tested against; by default those of the body. Vertices and edges are tested where
+  /// any facet that has the one is tested against any that has the other.
+  std::span<const std::uint32_t> facet_masks = {};
+  /// How far ahead of each vertex contact points are seen, metres, 0 to the margin of the body. An edge or a facet has
+  /// the largest of its vertices.
+  std::span<const double> margins = {};
+};
+
+/// Which features of a body that is tested against itself are too near to each other to be tested.
+struct SelfContactFilter {
+  /// Features with vertices at most so many edges apart are left out, 0 to 16; 0 adds none.
+  int rings = 0;
+  /// Features with vertices at most so far apart at rest are left out, metres, 0 to kLargestCoordinate; 0 leaves out
+  /// none.
+  double rest_distance = 0.0;
+  /// Where vertices are at rest, metres; by default where they are when the filter is set. It is 3 x V.
+  Positions rest_positions = Positions::none();
+};
+
+/// What has a label.
+enum class LabelKind {
+  facet,   ///< facets, and the edges and vertices of no other facet
+  vertex,  ///< vertices, and the edges and facets that have any of them
+};
+
+/// A label of one body and a label of another, or of the same.
+struct LabelPair {
+  BodyId a;                           ///< a body
+  std::uint32_t label_a = 0;          ///< a label of it, not 0
+  BodyId b;                           ///< another body, or the same
+  std::uint32_t label_b = 0;          ///< a label of that, not 0
+  LabelKind kind = LabelKind::facet;  ///< what has the labels
 };
 
 /// The labels of a vertex, an edge or a facet; 0 where there is none.

@@ -43,6 +43,8 @@ class TACT_API Recorder final : public WorldObserver {
   void rest_offset_set(BodyId body, std::optional<double> rest_offset) noexcept override;
   void feature_settings_set(BodyId body, const FeatureSettings& settings) noexcept override;
   void self_contact_set(BodyId body, bool wanted) noexcept override;
+  void self_contact_filter_set(BodyId body, const SelfContactFilter& filter) noexcept override;
+  void excluded_labels_set(const LabelPair& labels, bool excluded) noexcept override;
   void state_restored(std::span<const std::byte> bytes) noexcept override;
   void step_begins() noexcept override;
   void step_ended(const Report& report) noexcept override;

@@ -36,7 +36,7 @@ struct MeshUpdate {
   Edges edges = Edges::none();       ///< 2 x E, indices of vertices
   std::span<const int> points = {};  ///< vertices that stand alone
   std::span<const int> vertex_map;   ///< of each vertex the old one that it was, or -1
-  /// Of each facet the old one whose label it has, or -1. An empty map names none.
+  /// Of each facet the old one whose label, layer and mask it has, or -1. An empty map names none.
   std::span<const int> facet_map = {};
 };
 
@@ -125,10 +125,16 @@ class TACT_API World {
   /// Errors: stale_body, foreign_body, invalid_argument (not 0 to the margin).
   void set_rest_offset(BodyId body, std::optional<double> rest_offset);
   /// Replaces the settings of single vertices and facets of a body. Errors: stale_body, foreign_body, wrong_size,
-  /// invalid_argument (a rest offset is not 0 to the margin), out_of_memory.
+  /// invalid_argument (a margin or a rest offset is not 0 to the one above it), out_of_memory.
   void set_feature_settings(BodyId body, const FeatureSettings& settings);
   /// Sets whether a body is tested against itself. Errors: stale_body, foreign_body.
   void set_self_contact(BodyId body, bool wanted);
+  /// Sets which features of a body are too near to each other to be tested against each other. Errors: stale_body,
+  /// foreign_body, invalid_argument, wrong_size, non_finite_position, position_out_of_range, out_of_memory.
+  void set_self_contact_filter(BodyId body, const SelfContactFilter& filter);
+  /// Sets whether features of two labels are excluded from tests: a collar and what it is sewn to, say. Errors:
+  /// stale_body, foreign_body, invalid_argument (a label 0, a plane), out_of_memory.
+  void set_excluded_labels(const LabelPair& labels, bool excluded);
 
   /// Takes one step: finds the contacts of the current positions. It does not throw for positions that set_positions()
   /// accepted. Errors: out_of_memory, backend_failure; bodies stay, and the next step starts from scratch.
@@ -222,7 +228,11 @@ class TACT_API World {
   /// Returns the labels of a feature of a body, whose vertices are named as in a point, a pair or an impact. Errors:
   /// also invalid_argument (no such vertex).
   FeatureLabels labels(BodyId body, const std::array<int, 3>& vertices) const;
-  bool self_contact(BodyId body) const;         ///< whether a body is tested against itself
+  bool self_contact(BodyId body) const;  ///< whether a body is tested against itself
+  /// Returns which features of a body are too near to be tested, valid until that or its facets change.
+  SelfContactFilter self_contact_filter(BodyId body) const;
+  /// Whether set_excluded_labels() excludes two labels. Errors: also invalid_argument.
+  bool excluded_labels(const LabelPair& labels) const;
   std::size_t vertex_count(BodyId body) const;  ///< the number of vertices that were added
   std::size_t facet_count(BodyId body) const;   ///< the number of facets that were added
   std::size_t edge_count(BodyId body) const;    ///< the number of edges that were added

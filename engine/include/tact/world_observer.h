@@ -38,6 +38,8 @@ class TACT_API WorldObserver {
   virtual void rest_offset_set(BodyId body, std::optional<double> rest_offset) noexcept;
   virtual void feature_settings_set(BodyId body, const FeatureSettings& settings) noexcept;
   virtual void self_contact_set(BodyId body, bool wanted) noexcept;
+  virtual void self_contact_filter_set(BodyId body, const SelfContactFilter& filter) noexcept;
+  virtual void excluded_labels_set(const LabelPair& labels, bool excluded) noexcept;
   /// Called when World::restore() has set the settings and bodies of the bytes.
   virtual void state_restored(std::span<const std::byte> bytes) noexcept;
 

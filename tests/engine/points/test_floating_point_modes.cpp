@@ -259,7 +259,9 @@ class EveryCall {
       world.set_facets(bodies_[2], {.positions = halves.mesh.positions,
                                     .facets = halves.mesh.facets,
                                     .vertex_map = unchanged(halves.mesh).vertex_map});
-      world.set_feature_settings(bodies_[1], {.rest_offsets = offsets});
+      world.set_feature_settings(bodies_[1], {.rest_offsets = offsets, .margins = offsets});
+      world.set_self_contact_filter(bodies_[2], {.rings = 1, .rest_distance = 0.1 / 3.0});
+      world.set_excluded_labels({bodies_[0], 1, bodies_[1], 2}, true);
     });
     told_.begin("detect_motion");
     for (const Impacts wanted : {Impacts::all, Impacts::first_of_pair, Impacts::first})
@@ -374,6 +376,8 @@ class EveryCall {
     }
     tell([&] { return world.body_count() + static_cast<std::size_t>(world.settings().iteration_limit); });
     tell([&] { return std::uint64_t{world.excluded(bodies_[1], bodies_[3])}; });
+    tell([&] { return std::uint64_t{world.excluded_labels({bodies_[0], 1, bodies_[1], 2})}; });
+    tell([&] { return world.self_contact_filter(bodies_[2]).rest_distance; });
   }
 
   // What is refused is told by its code. Comparisons with what is no number raise an exception, too.

@@ -180,10 +180,10 @@ TEST(Recording, SaysWhatIsWrongAndAtWhichByte) {
   ASSERT_EQ(recording_refusal(good), "accepted");
   EXPECT_EQ(recording_refusal(""), "byte 0: not a recording: it does not begin with tactrec");
   EXPECT_EQ(recording_refusal("solid a"), "byte 0: not a recording: it does not begin with tactrec");
-  EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(8u))),
-            "byte 8: a recording of version 8; versions 1 to 7 can be read");
+  EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(9u))),
+            "byte 8: a recording of version 9; versions 1 to 8 can be read");
   EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(0u))),
-            "byte 8: a recording of version 0; versions 1 to 7 can be read");
+            "byte 8: a recording of version 0; versions 1 to 8 can be read");
   EXPECT_EQ(recording_refusal(with(good, kSettingsAt, "\x02")),
             at_byte(kSettingsAt) + "the first record is not one of settings");
   EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x7f")),
@@ -243,7 +243,7 @@ TEST(Recording, AnyBitWrong) {
     EXPECT_TRUE(message == "accepted" || message.starts_with("byte ")) << "bit " << bit << ": " << message;
     const auto version = static_cast<unsigned char>(bytes[kVersionAt]);
     const bool in_magic = bit < 8 * kVersionAt, in_version = !in_magic && bit < 8 * (kVersionAt + 4);
-    const bool is_known = bit < 8 * (kVersionAt + 1) && version >= 1 && version <= 7;  // an older one, read as such
+    const bool is_known = bit < 8 * (kVersionAt + 1) && version >= 1 && version <= 8;  // an older one, read as such
     EXPECT_FALSE((in_magic || (in_version && !is_known)) && message == "accepted") << "bit " << bit;
   }
 }

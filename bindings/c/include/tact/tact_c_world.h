@@ -239,7 +239,7 @@ typedef struct tact_mesh_update {
   size_t point_count;        /**< how many there are */
   const int32_t* vertex_map; /**< of each vertex the old one that it was, or -1 */
   size_t vertex_map_count;   /**< its entries */
-  const int32_t* facet_map;  /**< of each facet the old one whose label it has, or -1 */
+  const int32_t* facet_map;  /**< of each facet the old one whose label, layer and mask it has, or -1 */
   size_t facet_map_count;    /**< its entries */
 } tact_mesh_update;
 #define TACT_MESH_UPDATE_INIT                                                                   \
@@ -261,9 +261,46 @@ typedef struct tact_feature_settings {
   size_t vertex_layer_count;     /**< their number */
   const uint32_t* vertex_masks;  /**< the layers that each vertex is tested against; by default those of the body */
   size_t vertex_mask_count;      /**< their number */
+  const uint32_t* facet_layers;  /**< the layers that each facet is on, a bit each; by default those of the body */
+  size_t facet_layer_count;      /**< their number */
+  const uint32_t* facet_masks;   /**< the layers that each facet is tested against; by default those of the body */
+  size_t facet_mask_count;       /**< their number */
+  /** How far ahead of each vertex contact points are seen, metres, 0 to the margin of the body. */
+  const double* margins;
+  size_t margin_count; /**< their number */
 } tact_feature_settings;
 #define TACT_FEATURE_SETTINGS_INIT \
-  { (uint32_t)sizeof(tact_feature_settings), NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0 }
+  { (uint32_t)sizeof(tact_feature_settings), NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0 }
+
+/** Which features of a body that is tested against itself are too near to each other to be tested. */
+typedef struct tact_self_contact_filter {
+  uint32_t struct_size;
+  /** Features with vertices at most so many edges apart are left out, 0 to 16; 0 adds none. */
+  int32_t rings;
+  /** Features with vertices at most so far apart at rest are left out, metres, 0 to 2^300; 0 leaves out none. */
+  double rest_distance;
+  /** Where vertices are at rest, metres; by default where they are when the filter is set. It is 3 x V. */
+  tact_columns rest_positions;
+} tact_self_contact_filter;
+#define TACT_SELF_CONTACT_FILTER_INIT                                                 \
+  {                                                                                   \
+    (uint32_t)sizeof(tact_self_contact_filter), 0, 0.0, { NULL, 0, 24, TACT_FLOAT64 } \
+  }
+
+/** What has a label. */
+typedef enum tact_label_kind {
+  TACT_LABEL_FACET = 0, /**< facets, and the edges and vertices of no other facet */
+  TACT_LABEL_VERTEX = 1 /**< vertices, and the edges and facets that have any of them */
+} tact_label_kind;
+
+/** A label of one body and a label of another, or of the same. */
+typedef struct tact_label_pair {
+  tact_body a;      /**< a body */
+  uint32_t label_a; /**< a label of it, not 0 */
+  tact_body b;      /**< another body, or the same */
+  uint32_t label_b; /**< a label of that, not 0 */
+  int32_t kind;     /**< tact_label_kind */
+} tact_label_pair;
 
 /** The labels of a vertex, an edge or a facet; 0 where there is none. */
 typedef struct tact_feature_labels {
@@ -334,6 +371,11 @@ TACT_C_API tact_error tact_world_set_feature_settings(tact_world world, tact_bod
                                                       const tact_feature_settings* settings);
 /** Sets whether a body is tested against itself. */
 TACT_C_API tact_error tact_world_set_self_contact(tact_world world, tact_body body, bool wanted);
+/** Sets which features of a body are too near to each other to be tested against each other. */
+TACT_C_API tact_error tact_world_set_self_contact_filter(tact_world world, tact_body body,
+                                                         const tact_self_contact_filter* filter);
+/** Sets whether features of two labels are excluded from tests: a collar and what it is sewn to, say. */
+TACT_C_API tact_error tact_world_set_excluded_labels(tact_world world, const tact_label_pair* labels, bool excluded);
 /** Takes one step: finds the contacts of the current positions. The functions tact_report_... tell what it found. */
 TACT_C_API tact_error tact_world_detect(tact_world world);
 /** Finds what meets between the positions of the last tact_world_detect() and the current ones, every vertex moving
@@ -398,6 +440,11 @@ TACT_C_API tact_error tact_world_labels(tact_world world, tact_body body, const 
                                         tact_feature_labels* labels);
 /** Whether a body is tested against itself. */
 TACT_C_API tact_error tact_world_self_contact(tact_world world, tact_body body, bool* wanted);
+/** Gives which features of a body are too near to be tested, valid until that or its facets change. */
+TACT_C_API tact_error tact_world_self_contact_filter(tact_world world, tact_body body,
+                                                     tact_self_contact_filter* filter);
+/** Whether tact_world_set_excluded_labels() excludes two labels. */
+TACT_C_API tact_error tact_world_excluded_labels(tact_world world, const tact_label_pair* labels, bool* excluded);
 /** The number of vertices that were added. */
 TACT_C_API tact_error tact_world_vertex_count(tact_world world, tact_body body, size_t* count);
 /** The number of facets that were added. */

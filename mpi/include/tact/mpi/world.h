@@ -110,6 +110,8 @@ class TACT_API World {
   /// Replaces the settings of single vertices and facets.
   void set_feature_settings(std::uint64_t key, const FeatureSettings& settings);
   void set_self_contact(std::uint64_t key, bool wanted);  ///< sets whether it is tested against itself
+  /// Sets which features of a body are too near to each other to be tested against each other.
+  void set_self_contact_filter(std::uint64_t key, const SelfContactFilter& filter);
   /// Sets whether two bodies are excluded from tests. One rank that owns one of them says so; the other owner learns it
   /// in the next call together. Errors: also stale_body, then, if nobody owns the other.
   void set_excluded(std::uint64_t key, std::uint64_t other, bool excluded);
