@@ -1,12 +1,16 @@
 // Plays the frames in a file that frames.py has written: the C++ side of what Python is held against.
 //
-//   play_frames FILE THREADS      prints the hash of each step, then the median milliseconds of a step
+//   play_frames FILE THREADS [MARGIN]
+//
+// Prints the hash of each step, then the median milliseconds of a step, of processor time if there is one thread. With
+// a margin all points are read.
 #include <tact/tact.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <stdexcept>
 #include <vector>
@@ -36,27 +40,50 @@ class Reader {
   std::ifstream stream_;
 };
 
-void play(const char* file, int threads) {
-  using Clock = std::chrono::steady_clock;
+// All points of a report, in memory that is used again.
+struct Points {
+  void read(const tact::Report& report) {
+    const std::size_t count = point_count(report);
+    bodies.resize(2 * count), contacts.resize(count), kinds.resize(count), minima.resize(count);
+    a_vertices.resize(3 * count), b_vertices.resize(3 * count), ids.resize(count), patch_ids.resize(count);
+    a_weights.resize(3 * count), b_weights.resize(3 * count), normals.resize(3 * count), gaps.resize(count);
+    copy_points(report, {bodies, contacts, kinds, a_vertices, b_vertices, a_weights, b_weights, normals, gaps, ids,
+                         patch_ids, minima});
+  }
+  std::vector<std::uint32_t> bodies;
+  std::vector<int> contacts, a_vertices, b_vertices;
+  std::vector<std::uint8_t> kinds, minima;
+  std::vector<double> a_weights, b_weights, normals, gaps;
+  std::vector<std::uint64_t> ids, patch_ids;
+};
+
+void play(const char* file, int threads, double margin) {
+  const auto now_ms = [&] {
+    if (threads == 1) return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  };
   Reader reader(file);
-  tact::World world(tact::Settings{.threads = threads});
+  tact::World world({.threads = threads, .outputs = {.points = margin > 0.0}});
   std::vector<tact::BodyId> bodies;
   for (std::int64_t left = reader.number(); left > 0; --left) {
     const Eigen::Matrix3Xd positions = reader.columns<double>();
-    bodies.push_back(world.add_body({.positions = positions, .facets = reader.columns<int>()}));
+    const Eigen::Matrix3Xi facets = reader.columns<int>();
+    bodies.push_back(world.add_body({.positions = positions, .facets = facets, .margin = margin}));
   }
   std::vector<std::vector<Eigen::Matrix3Xd>> frames(static_cast<std::size_t>(reader.number()));
   for (std::vector<Eigen::Matrix3Xd>& frame : frames) {
     for (std::size_t i = 0; i < bodies.size(); ++i) frame.push_back(reader.columns<double>());
   }
   std::vector<double> times;
+  Points points;
   for (const std::vector<Eigen::Matrix3Xd>& frame : frames) {
-    const Clock::time_point start = Clock::now();
+    const double start = now_ms();
     std::vector<tact::PositionsUpdate> updates;
     for (std::size_t i = 0; i < bodies.size(); ++i) updates.push_back({bodies[i], frame[i]});
     world.set_positions(updates);
     const tact::Report& report = world.detect();
-    times.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+    if (margin > 0.0) points.read(report);
+    times.push_back(now_ms() - start);
     std::printf("%llu\n", static_cast<unsigned long long>(report.hash()));
   }
   const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
@@ -67,9 +94,9 @@ void play(const char* file, int threads) {
 }  // namespace
 
 int main(int count, char** words) {
-  if (count != 3) return 2;
+  if (count != 3 && count != 4) return 2;
   try {
-    play(words[1], std::atoi(words[2]));
+    play(words[1], std::atoi(words[2]), count == 4 ? std::strtod(words[3], nullptr) : 0.0);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
