@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "engine/base/parallel.h"
 #include "engine/base/text.h"
@@ -26,6 +27,8 @@ constexpr std::size_t kMotionCost = 2;
 constexpr double kRounding = 0x1p-50, kLater = 0x1p-40;
 // Bodies that go together are seen from what goes with them, if they go farther than this part of their size.
 constexpr double kFarTogether = 0x1p-4;
+// Known candidates that are searched for what a pair of clusters costs, kMotionCost.
+constexpr std::size_t kCandidates = 64;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -51,6 +54,7 @@ const MotionReport& MotionStage::run(Bodies& bodies, const Settings& settings, c
   report_.stats_ = {};
   bodies.update_order();
   bounds_.begin(0);
+  note_call(bodies);
   const Call call{bodies, settings.threads, options};
   sweep(call);
   select(call);
@@ -63,10 +67,21 @@ const MotionReport& MotionStage::run(Bodies& bodies, const Settings& settings, c
   return report_;
 }
 
+void MotionStage::note_call(const Bodies& bodies) {
+  if (std::exchange(step_, bodies.steps()) != bodies.steps() && calls_ > 0) {
+    expects_more_ = calls_ > 1;
+    calls_ = 0;
+  }
+  if (++calls_ > 1) expects_more_ = true;
+}
+
 void MotionStage::find(const Call& call) {
   make_features(call);
+  find_known(call);
+  begin_search(call);
   find_clusters(call);
   search(call);
+  if (keeps_ways_) keep_ways(call);
 }
 
 double MotionStage::Call::wider(double held) const {
@@ -233,37 +248,84 @@ void MotionStage::make_features(const Call& call) {
   call.bodies.make_features(slots_, call.threads);
 }
 
+// Looks which pairs go a part of their ways in an earlier call. If none does, this call is kept for others, if there
+// may be some.
+void MotionStage::find_known(const Call& call) {
+  keeps_ways_ = false;
+  if (call.only_changed) return;
+  known_.look(call.bodies, call.options.distance, call.threads);
+  bool any = false;
+  for (Passing& one : passing_) {
+    const auto candidates = known_.find(one.a, one.b);
+    one.is_known = candidates.has_value();
+    if (one.is_known) one.known = *candidates;
+    any |= one.is_known;
+  }
+  keeps_ways_ = !any && expects_more_;
+}
+
+// Of a call for the first impacts, up to the first one: what is later was not searched.
+void MotionStage::keep_ways(const Call& call) {
+  const Bodies& bodies = call.bodies;
+  const Impacts wanted = call.options.wanted;
+  known_.begin(bodies, call.options.distance, largest_);
+  for (const Work::Shared& shared : work_.items()) {
+    const Passing& one = passing_[shared.item];
+    if (body_and_plane(bodies, one.a, one.b)) continue;
+    for (const Work::Range& range : work_.ranges(shared)) known_.add(range.found.kept);
+    const double first = wanted == Impacts::all ? 1.0 : first_[wanted == Impacts::first ? 0 : shared.item].load();
+    const std::span<const narrowphase::ClusterPair> opened = clusters_of(one);
+    known_.add_pair(bodies, one.a, one.b, std::min(first, 1.0), one.has_planes ? nullptr : &opened);
+  }
+  known_.finish(bodies, call.threads);
+}
+
 std::span<const narrowphase::ClusterPair> MotionStage::clusters_of(const Passing& passing) const {
   return std::span(memory_[passing.thread].clusters).subspan(passing.begin, passing.end - passing.begin);
 }
 
 // Of the cluster pairs of a thread from `begin` on leaves out those that never meet. If only the first impacts are
 // wanted, the others are sorted by the time from which they may.
-void MotionStage::leave_out_clusters(const Passing& passing, const Call& call, std::size_t begin,
-                                     Memory& memory) const {
+void MotionStage::leave_out_clusters(Passing& passing, const Call& call, std::size_t begin, Memory& memory) const {
   const narrowphase::MovingMesh a = moving(call.bodies, passing.a), b = moving(call.bodies, passing.b);
+  const double reach = passing.reach + (keeps_ways_ ? memory.finder.kept_reach(a, b) : 0.0);
   memory.timed.clear();
   for (const narrowphase::ClusterPair& pair : std::span(memory.clusters).subspan(begin)) {
     if (call.only_changed && !bounds_.changed(passing.a, pair.a) && !bounds_.changed(passing.b, pair.b)) continue;
-    const double earliest = narrowphase::earliest_time(a, pair.a, b, pair.b, passing.reach);
+    const double earliest = narrowphase::earliest_time(a, pair.a, b, pair.b, reach);
     if (earliest <= 1.0) memory.timed.push_back({earliest, pair});
   }
+  const std::size_t by_boxes = memory.timed.size();
   const narrowphase::MeshWay way_a = a.seen_from({}), way_b = b.seen_from({});
-  memory.passing.leave_out_separated({.mesh = a.mesh, .way = &way_a}, {.mesh = b.mesh, .way = &way_b}, passing.reach,
+  memory.passing.leave_out_separated({.mesh = a.mesh, .way = &way_a}, {.mesh = b.mesh, .way = &way_b}, reach,
                                      call.bodies.tuning(), memory.timed, 0, [](const TimedPair& t) { return t.pair; });
   if (!call.wants_all())
     std::ranges::sort(memory.timed, {}, [](const TimedPair& t) { return std::tuple(t.earliest, t.pair.a, t.pair.b); });
+  passing.has_planes = memory.timed.size() < by_boxes;
   memory.clusters.resize(begin);
   for (const TimedPair& one : memory.timed) memory.clusters.push_back(one.pair);
 }
 
-void MotionStage::find_clusters(const Call& call) {
-  const Bodies& bodies = call.bodies;
+void MotionStage::begin_search(const Call& call) {
+  base::Box all;
+  for (const Passing& one : passing_) {
+    for (const std::uint32_t slot : {one.a, one.b}) {
+      const base::MovingBox way = way_box(call, slot);
+      all = merged(all, merged(way.begin, way.end));
+    }
+  }
+  largest_ = largest_coordinate(all);
   memory_.resize(call.threads);
   for (Memory& memory : memory_) {
     memory.clusters.clear();
     memory.cluster_pairs = 0;
+    memory.finder.begin(all);
+    memory.counts = {};
   }
+}
+
+void MotionStage::find_clusters(const Call& call) {
+  const Bodies& bodies = call.bodies;
   const auto facets_of = [&](std::size_t i) {
     const Passing& one = passing_[i];
     return std::min(bodies.in_slot(one.a).mesh.facet_count(), bodies.in_slot(one.b).mesh.facet_count());
@@ -273,21 +335,25 @@ void MotionStage::find_clusters(const Call& call) {
     Passing& one = passing_[i];
     Memory& memory = memory_[thread];
     const std::size_t begin = memory.clusters.size();
-    if (const BodyAndPlane plane = body_and_plane(bodies, one.a, one.b)) {
+    if (one.is_known) {
+      for (std::size_t k = 0; k < one.known.size(); k += kCandidates)
+        memory.clusters.push_back({static_cast<int>(k / kCandidates), 0});
+    } else if (const BodyAndPlane plane = body_and_plane(bodies, one.a, one.b)) {
       find_clusters_near_plane(plane, moving(bodies, plane.body->id.index), one.reach, memory.clusters);
     } else {
       const narrowphase::MovingMesh a = moving(bodies, one.a), b = moving(bodies, one.b);
       const base::Vec3 frame = narrowphase::common_frame(a, b);
       const narrowphase::MeshWay way_a = a.seen_from(frame), way_b = b.seen_from(frame);
-      const auto pairs = memory.passing.find({.mesh = a.mesh, .way = &way_a}, {.mesh = b.mesh, .way = &way_b},
-                                             one.reach, bodies.tuning(), device_);
+      const double reach = one.reach + (keeps_ways_ ? memory.finder.kept_reach(a, b) : 0.0);
+      const auto pairs = memory.passing.find({.mesh = a.mesh, .way = &way_a}, {.mesh = b.mesh, .way = &way_b}, reach,
+                                             bodies.tuning(), device_);
       memory.clusters.insert(memory.clusters.end(), pairs.begin(), pairs.end());
       leave_out_clusters(one, call, begin, memory);
     }
     one.thread = static_cast<std::size_t>(thread);
     one.begin = begin;
     one.end = memory.clusters.size();
-    memory.cluster_pairs += static_cast<std::int64_t>(one.end - one.begin);
+    if (!one.is_known) memory.cluster_pairs += static_cast<std::int64_t>(one.end - one.begin);
   });
   cut_into_ranges(call);
 }
@@ -302,7 +368,9 @@ void MotionStage::cut_into_ranges(const Call& call) {
     const std::span<const narrowphase::ClusterPair> clusters = clusters_of(one);
     std::size_t item = i;
     const Work::Shared& shared = work_.put_aside(item, clusters, (clusters.size() + at_a_time - 1) / at_a_time);
-    if (call.wants_all() || body_and_plane(bodies, one.a, one.b)) continue;
+    if (call.wants_all()) continue;
+    for (Work::Range& range : work_.ranges(shared)) range.found.earliest = 0.0;
+    if (one.is_known || body_and_plane(bodies, one.a, one.b)) continue;
     for (Work::Range& range : work_.ranges(shared)) {
       if (range.begin == range.end) continue;
       const narrowphase::ClusterPair& first = clusters[range.begin];
@@ -313,48 +381,47 @@ void MotionStage::cut_into_ranges(const Call& call) {
 }
 
 void MotionStage::search(const Call& call) {
-  const Bodies& bodies = call.bodies;
   const Impacts wanted = call.options.wanted;
   const std::size_t firsts = wanted == Impacts::all ? 0 : wanted == Impacts::first ? 1 : passing_.size();
   if (first_.size() < firsts) first_ = std::vector<std::atomic<double>>(2 * firsts);
   for (std::size_t i = 0; i < firsts; ++i) first_[i] = kNever;
-  base::Box all;
-  for (const Passing& one : passing_) {
-    for (const std::uint32_t slot : {one.a, one.b}) {
-      const base::MovingBox way = way_box(call, slot);
-      all = merged(all, merged(way.begin, way.end));
-    }
-  }
-  for (Memory& memory : memory_) {
-    memory.finder.begin(all);
-    memory.counts = {};
-  }
   // Of bodies that meet at the very beginning the first pair is reported: what comes after it need not be searched.
   std::atomic<std::size_t> meets_at_once = passing_.size();
-  const auto search_range = [&](const Work::Shared& shared, Work::Range& range, int thread) {
+  const auto search_next = [&](const Work::Shared& shared, Work::Range& range, int thread) {
     const std::size_t place = shared.item;
-    const Passing& one = passing_[place];
-    Memory& memory = memory_[thread];
-    std::vector<FeatureImpact>& found = range.found.impacts;
-    std::atomic<double>* const first = firsts == 0 ? nullptr : &first_[firsts == 1 ? 0 : place];
-    found.clear();
+    range.found.impacts.clear();
+    range.found.kept.clear();
     if (wanted == Impacts::first && place > meets_at_once.load(std::memory_order_relaxed)) return;
-    const auto clusters = clusters_of(one).subspan(range.begin, range.end - range.begin);
-    if (const BodyAndPlane plane = body_and_plane(bodies, one.a, one.b)) {
-      search_plane(plane, moving(bodies, plane.body->id.index), call.rules(one.a, one.b), clusters, first, range.found);
-    } else {
-      memory.finder.run(moving(bodies, one.a), moving(bodies, one.b), call.rules(one.a, one.b), clusters, first, found,
-                        memory.counts);
-    }
+    search_range(passing_[place], call, firsts == 0 ? nullptr : &first_[firsts == 1 ? 0 : place], range,
+                 memory_[thread]);
     if (wanted == Impacts::first &&
-        std::ranges::any_of(found, [](const FeatureImpact& impact) { return impact.time == 0.0; }))
+        std::ranges::any_of(range.found.impacts, [](const FeatureImpact& impact) { return impact.time == 0.0; }))
       base::lower_to(meets_at_once, place);
   };
   // Where only the first impact counts, what may meet early is searched first: what is found leaves out most others.
   if (wanted == Impacts::all) {
-    work_.search(call.threads, search_range);
+    work_.search(call.threads, search_next);
   } else {
-    work_.search_by([](const Work::Range& range) { return range.found.earliest; }, call.threads, search_range);
+    work_.search_by([](const Work::Range& range) { return range.found.earliest; }, call.threads, search_next);
+  }
+}
+
+void MotionStage::search_range(const Passing& passing, const Call& call, std::atomic<double>* first, Work::Range& range,
+                               Memory& memory) const {
+  const Bodies& bodies = call.bodies;
+  const narrowphase::FeatureRules rules = call.rules(passing.a, passing.b);
+  const auto clusters = clusters_of(passing).subspan(range.begin, range.end - range.begin);
+  std::vector<FeatureImpact>& found = range.found.impacts;
+  if (passing.is_known) {
+    const std::size_t begin = range.begin * kCandidates, end = std::min(range.end * kCandidates, passing.known.size());
+    if (begin < end)
+      memory.finder.run_again(moving(bodies, passing.a), moving(bodies, passing.b), rules,
+                              passing.known.subspan(begin, end - begin), first, found, memory.counts);
+  } else if (const BodyAndPlane plane = body_and_plane(bodies, passing.a, passing.b)) {
+    search_plane(plane, moving(bodies, plane.body->id.index), rules, clusters, first, range.found);
+  } else {
+    memory.finder.run(moving(bodies, passing.a), moving(bodies, passing.b), rules, clusters, first, found,
+                      memory.counts, keeps_ways_ ? &range.found.kept : nullptr);
   }
 }
 

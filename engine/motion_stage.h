@@ -14,6 +14,7 @@
 #include "engine/base/moving_box.h"
 #include "engine/bodies/bodies.h"
 #include "engine/bodies/plane_pairs.h"
+#include "engine/known_ways.h"
 #include "engine/motion_bounds.h"
 #include "engine/pair/plane_pair.h"
 #include "engine/shared_work.h"
@@ -28,11 +29,17 @@ class MotionStage {
  public:
   const MotionReport& run(Bodies& bodies, const Settings& settings, const MotionOptions& options);
 
+  /// Before anything changes of the bodies but positions and poses. No answer depends on what is not forgotten.
+  void forget_ways() { known_.forget(); }
+
  private:
   /// Two bodies, or one twice, of which one moves.
   struct Passing {
     std::uint32_t a = 0, b = 0;
     double reach = 0.0;
+    bool has_planes = false;  // planes left out some of its cluster pairs
+    bool is_known = false;    // then its candidates are, and cluster pairs stand for kCandidates of them each
+    KnownWays::Candidates known = {};
     // Where their cluster pairs are: those of a thread.
     std::size_t thread = 0, begin = 0, end = 0;
   };
@@ -40,6 +47,7 @@ class MotionStage {
   struct Found {
     double earliest = 0.0;  // no impact in it is earlier
     std::vector<narrowphase::FeatureImpact> impacts;
+    std::vector<narrowphase::FeatureCandidate> kept;
   };
   using Work = SharedWork<std::size_t, Found>;  // of the place among those that pass
   /// A cluster pair and the time before which nothing meets in it.
@@ -71,6 +79,7 @@ class MotionStage {
     narrowphase::FeatureRules rules(std::uint32_t a, std::uint32_t b) const;
   };
 
+  void note_call(const Bodies& bodies);
   void find(const Call& call);
   void sweep(const Call& call);
   void find_ways(const Call& call);
@@ -83,11 +92,16 @@ class MotionStage {
     return bounds_.moving(bodies, slot);
   }
   void make_features(const Call& call);
+  void begin_search(const Call& call);
+  void find_known(const Call& call);
+  void keep_ways(const Call& call);
   void find_clusters(const Call& call);
-  void leave_out_clusters(const Passing& passing, const Call& call, std::size_t begin, Memory& memory) const;
+  void leave_out_clusters(Passing& passing, const Call& call, std::size_t begin, Memory& memory) const;
   std::span<const narrowphase::ClusterPair> clusters_of(const Passing& passing) const;
   void cut_into_ranges(const Call& call);
   void search(const Call& call);
+  void search_range(const Passing& passing, const Call& call, std::atomic<double>* first, Work::Range& range,
+                    Memory& memory) const;
   void make_report(const Call& call);
   void count_found();
   void gather(const Work::Shared& shared, const Bodies& bodies);
@@ -117,6 +131,12 @@ class MotionStage {
   std::vector<std::atomic<double>> first_;  // of each pair that passes, or of all
   std::vector<narrowphase::FeatureImpact> gathered_;
   MotionBounds bounds_;
+  KnownWays known_;
+  bool keeps_ways_ = false;   // of this call
+  bool expects_more_ = true;  // calls before the next step: in the last one with any there were
+  std::uint64_t step_ = 0;    // after which calls_ were
+  std::int64_t calls_ = 0;
+  double largest_ = 0.0;  // coordinate of those that pass, on their ways
   narrowphase::EmbreeDevice device_;
   MotionReport report_;
 };

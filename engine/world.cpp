@@ -127,6 +127,7 @@ void World::set_facets(BodyId body, const Positions& positions, const Facets& fa
 void World::set_facets(BodyId body, const MeshUpdate& update) {
   const base::FloatingPointMode mode;
   Implementation& i = implementation();
+  i.forget_ways();
   i.set_positions([&] {
     Bodies::NewMesh made = i.bodies.make_mesh(body, update, i.settings.threads);
     // From publishing on nothing can fail.

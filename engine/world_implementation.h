@@ -46,10 +46,16 @@ struct World::Implementation {
     if (settings.outputs.trace) step.trace().add_refresh(begin, timer.start());
   }
 
+  // Before anything changes but positions and poses.
+  void forget_ways() {
+    if (motion != nullptr) motion->forget_ways();
+  }
+
   // Calls change(), and tell(observer) once it has succeeded.
   template <class Change, class Tell>
   void change(const Change& change, const Tell& tell) {
     const base::FloatingPointMode mode;
+    forget_ways();
     with_memory(change);
     observe(tell);
   }
@@ -71,6 +77,7 @@ struct World::Implementation {
   }
 
   const Report& detect() {
+    forget_ways();
     observe([](WorldObserver& told) { told.step_begins(); });
     try {
       return with_memory("detect ran out of memory; the next call starts from scratch", [&]() -> const Report& {

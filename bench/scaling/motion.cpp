@@ -70,7 +70,27 @@ class MotionRunner {
     world_.detect();
     set(to);
   }
-  const MotionReport& detect(Impacts wanted) { return world_.detect_motion(wanted); }
+  // As the first call after a step: a setting that is given again forgets what an earlier one found.
+  const MotionReport& detect(Impacts wanted) {
+    world_.set_margin(ids_[0], 0.0);
+    return world_.detect_motion(wanted);
+  }
+  // Of all on the whole way, and then on a half, a quarter and an eighth of it: how long it takes without positions,
+  // in parts of the first call.
+  double line_search(int from, int to) {
+    double first = 0.0, all = 0.0;
+    for (const double part : {1.0, 0.5, 0.25, 0.125}) {
+      for (std::size_t i = 0; i < ids_.size(); ++i) {
+        const WorkloadBody& body = workload_.bodies[i];
+        if (body.fixed()) continue;
+        const Eigen::Matrix3Xd &begin = body.positions(from), &end = body.positions(to);
+        world_.set_positions(ids_[i], begin + part * (end - begin));
+      }
+      all += time_ms(1, 1.0, [&] { part == 1.0 ? detect(Impacts::all) : world_.detect_motion(); });
+      if (part == 1.0) first = all;
+    }
+    return all / first;
+  }
 
  private:
   void set(int frame) {
@@ -110,7 +130,7 @@ void add_answers(MotionRunner& one, MotionRunner& several, const std::string& na
 Table measure_leaps(const std::vector<Leaps>& all, const std::string& only, int threads, double budget_ms,
                     tests::AnswerHash& answers) {
   Table table({"workload", "facets", "pairs of bodies", "candidates", "left by the filter %", "impacts", "1 thread ms",
-               fmt::format("{} threads ms", threads), "first only ms", "ns a candidate"});
+               fmt::format("{} threads ms", threads), "first only ms", "ns a candidate", "line search of 4"});
   for (const Leaps& leaps : all) {
     if (leaps.name.find(only) == std::string::npos) continue;
     const Workload workload = leaps.make();
@@ -121,11 +141,13 @@ Table measure_leaps(const std::vector<Leaps>& all, const std::string& only, int 
     const auto [ms, stats] = measure(one, Impacts::all, 1, budget_ms);
     const double first_ms = measure(one, Impacts::first, 1, budget_ms).ms;
     const double several_ms = measure(several, Impacts::all, threads, budget_ms).ms;
+    std::vector<double> searches;
+    for (int k = 0; k < 3; ++k) searches.push_back(one.line_search(0, leaps.frames));
     const auto candidates = static_cast<double>(std::max<std::int64_t>(stats.candidates, 1));
     table.add({leaps.name, fmt::to_string(workload.facet_count()), fmt::to_string(stats.body_pairs),
                fmt::to_string(stats.candidates), three_digits(100.0 * static_cast<double>(stats.searched) / candidates),
                fmt::to_string(stats.impacts), three_digits(ms), three_digits(several_ms), three_digits(first_ms),
-               three_digits(1e6 * ms / candidates)});
+               three_digits(1e6 * ms / candidates), three_digits(median(searches))});
   }
   return table;
 }
@@ -185,7 +207,10 @@ Table measure_growth(bool quick, double budget_ms, tests::AnswerHash& answers) {
     }
     std::vector<double> all;
     for (const double start = wall_ms(); all.size() < 3 || wall_ms() - start < budget_ms;)
-      all.push_back(time_ms(1, 1.0, [&] { world.detect_motion(); }));
+      all.push_back(time_ms(1, 1.0, [&] {
+        world.set_margin(a, 0.0);  // see MotionRunner::detect()
+        world.detect_motion();
+      }));
     const MotionStats stats = world.detect_motion().stats();
     const double ms = median(all);
     facets.push_back(static_cast<double>(stats.candidates));

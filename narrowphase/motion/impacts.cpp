@@ -22,6 +22,10 @@ namespace {
 constexpr double kNearly = 0x1p-36;
 constexpr double kEarlier = 0x1p-19;  // by less is the time of an impact earlier than the true one: see meeting.h
 
+// Of candidates that are kept. Two positions that are wrong leave a distance wrong by less than 4 of kWrong: eight
+// times that; and ten times what counts for near, so that no polygon that is not kept is decided by its last bits.
+constexpr double kKeptOfCoordinate = 32.0 * ImpactFinder::kWrong, kKeptOfSize = 0x1p-33;
+
 constexpr int kMostVertices = 3 * kClusterSize;
 static_assert(kMostVertices + 64 <= VertexWays::kRoom && 3 * kClusterSize + 64 <= FeatureWays::kRoom);
 
@@ -141,7 +145,7 @@ bool NearFeatures::take(const MovingMesh& m, MovingCluster& from, const Cut& cut
 
 // Grown so far that no rounding of a sum with `reach` matters.
 Box grown_generously(const Box& box, double reach) {
-  return reach == 0.0 ? box : base::grown(box, reach + 0x1p-50 * (largest_coordinate(box) + reach));
+  return reach == 0.0 ? box : inflated(box, reach + 0x1p-50 * (largest_coordinate(box) + reach));
 }
 
 // Whether a vertex of the one stays level with a vertex of the other along an axis. What slides in a plane does so, if
@@ -162,10 +166,22 @@ bool stays_level(const MovingPolygon& polygon) {
 // Pairs of features that wait for the filter.
 struct Waiting {
   MovingPolygons polygons;
-  struct {
-    FeaturePair kind;
-    int a, b;  // in the meshes
-  } pair[MovingPolygons::kCapacity];
+  FeatureCandidate pair[MovingPolygons::kCapacity];
+
+  // Leaves those of a mask.
+  void keep(std::uint64_t lanes) {
+    int count = 0;
+    for (; lanes != 0; lanes &= lanes - 1, ++count) {
+      const int from = std::countr_zero(lanes);
+      pair[count] = pair[from];
+      for (auto& corners : polygons.corner) {
+        for (int c = 0; c < polygons.corners; ++c) {
+          for (auto& axis : corners[c]) axis[count] = axis[from];
+        }
+      }
+    }
+    polygons.count = count;
+  }
 };
 
 // Clusters of a mesh that stay open, 22 kB each.
@@ -193,7 +209,8 @@ struct SearchMemory {
 class ImpactSearch {
  public:
   ImpactSearch(const MovingMesh& a, const MovingMesh& b, const FeatureRules& rules, std::atomic<double>* first,
-               SearchMemory& memory, std::vector<FeatureImpact>& found, MotionCounts& counts)
+               SearchMemory& memory, std::vector<FeatureImpact>& found, MotionCounts& counts,
+               std::vector<FeatureCandidate>* kept)
       : a_(a),
         b_(b),
         same_(a.mesh == b.mesh),
@@ -203,9 +220,11 @@ class ImpactSearch {
         first_(first),
         memory_(memory),
         found_(found),
-        counts_(counts) {
+        counts_(counts),
+        kept_(kept) {
     scale_ = memory.scale;
     largest_ = memory.largest;
+    if (kept != nullptr) kept_wider_ = kKeptOfCoordinate * largest_;
     memory.a.begin(a.mesh);
     memory.b.begin(b.mesh);
     scaled_reach_ = scaled(largest_reach_);
@@ -218,6 +237,7 @@ class ImpactSearch {
     MovingCluster &of_a = opened(a_, pair.a, memory_.a), &of_b = opened(b_, pair.b, memory_.b);
     NearFeatures &a = memory_.near_a, &b = memory_.near_b;
     const Cut cut = cut_of(of_a, of_b);
+    if (kept_ != nullptr) kept_size_ = std::max(kept_size_, longest_side(whole_ways(of_a, of_b)));
     const auto near = [&](const MovingCluster& cluster) {
       return grown_generously(cluster.box_until(cut), scaled_reach_ + cut.wider);
     };
@@ -226,6 +246,35 @@ class ImpactSearch {
     if (!same_) from_vertices(b, a, FeaturePair::facet_vertex);
     if (same_ && pair.a != pair.b) from_vertices(b, a, FeaturePair::vertex_facet);
     between_edges(a, b, pair.a == pair.b);
+  }
+
+  // One that was kept.
+  void look_again(const FeatureCandidate& one) {
+    const bool edges = one.kind == FeaturePair::edge_edge;
+    Waiting& waiting = edges ? memory_.edges : memory_.facets;
+    const int lane = waiting.polygons.count;
+    waiting.pair[lane] = one;
+    std::array<MovingVertex, 4> ends;  // of the polygon's corners each is what goes from one of the first to another
+    if (edges) {
+      const EdgeVertices e = a_.features->edge(one.a), f = b_.features->edge(one.b);
+      ends = {scaled(a_.vertex(e[0])), scaled(a_.vertex(e[1])), scaled(b_.vertex(f[0])), scaled(b_.vertex(f[1]))};
+    } else {
+      const bool vertex_is_a = one.kind == FeaturePair::vertex_facet;
+      const MovingMesh &of_vertex = vertex_is_a ? a_ : b_, &surface = vertex_is_a ? b_ : a_;
+      const Corners c = surface.mesh->corners(vertex_is_a ? one.b : one.a);
+      ends = {scaled(of_vertex.vertex(vertex_is_a ? one.a : one.b)), scaled(surface.vertex(c[0])),
+              scaled(surface.vertex(c[1])), scaled(surface.vertex(c[2]))};
+    }
+    constexpr std::array<std::array<std::size_t, 2>, 4> kOfEdges{{{0, 2}, {0, 3}, {1, 3}, {1, 2}}},
+        kOfFacet{{{0, 1}, {0, 2}, {0, 3}, {0, 3}}};
+    for (int time = 0; time < 2; ++time) {
+      for (int c = 0; c < waiting.polygons.corners; ++c) {
+        const auto [from, to] = (edges ? kOfEdges : kOfFacet)[static_cast<std::size_t>(c)];
+        const Vec3 corner = ends[to].at[time] - ends[from].at[time];
+        for (int axis = 0; axis < 3; ++axis) waiting.polygons.corner[time][c][axis][lane] = corner[axis];
+      }
+    }
+    added(waiting);
   }
 
   // Decides what still waits.
@@ -238,6 +287,8 @@ class ImpactSearch {
   double scaled(double reach) const {
     return reach > 0.0 ? std::max(scale_ * reach, std::numeric_limits<double>::denorm_min()) : 0.0;
   }
+
+  MovingVertex scaled(const MovingVertex& vertex) const { return {{scale_ * vertex.at[0], scale_ * vertex.at[1]}}; }
 
   MovingCluster& opened(const MovingMesh& m, int cluster, OpenMesh& memory) const {
     return memory.clusters.get(cluster, [&](MovingCluster& one) { open(m, cluster, scale_, one); });
@@ -314,11 +365,16 @@ class ImpactSearch {
     Cut cut{.frame = frame_of(a, b)};
     const bool has_frame = cut.frame != Vec3{};
     const double until = first_ == nullptr ? 1.0 : first_->load(std::memory_order_relaxed) + kEarlier;
+    cut.wider = kept_wider_;
     if (!has_frame && !(until < 1.0)) return cut;
-    const Box all = merged(merged(a.box_at[0], a.box_at[1]), merged(b.box_at[0], b.box_at[1]));
+    const Box all = whole_ways(a, b);
     cut.until = std::min(until, 1.0);
-    cut.wider = kNearly * longest_side(all) + 0x1p-50 * largest_coordinate(all);
+    cut.wider += kNearly * longest_side(all) + 0x1p-50 * largest_coordinate(all);
     return cut;
+  }
+
+  static Box whole_ways(const MovingCluster& a, const MovingCluster& b) {
+    return merged(merged(a.box_at[0], a.box_at[1]), merged(b.box_at[0], b.box_at[1]));
   }
 
   // What both go together along an axis, in whole steps.
@@ -342,16 +398,25 @@ class ImpactSearch {
   void decide(Waiting& waiting) {
     const int count = waiting.polygons.count;
     if (count == 0) return;
-    static_assert(MovingPolygons::kCapacity == 64);
-    std::uint64_t left =
-        ~std::uint64_t{0} >> (64 - count) & ~kernels().apart_throughout(waiting.polygons, scaled_reach_);
-    waiting.polygons.count = 0;
     counts_.candidates += count;
+    if (kept_ != nullptr) {
+      waiting.keep(open_lanes(waiting, scaled_reach_ + kept_wider_ + kKeptOfSize * kept_size_));
+      kept_->insert(kept_->end(), waiting.pair, waiting.pair + waiting.polygons.count);
+      if (waiting.polygons.count == 0) return;
+    }
+    std::uint64_t left = open_lanes(waiting, scaled_reach_);
+    waiting.polygons.count = 0;
     counts_.searched += std::popcount(left);
     for (; left != 0; left &= left - 1) {
       const auto& pair = waiting.pair[std::countr_zero(left)];
       settle(pair.kind, pair.a, pair.b);
     }
+  }
+
+  // Those, of one or more, that the filter does not leave out.
+  static std::uint64_t open_lanes(const Waiting& waiting, double reach) {
+    static_assert(MovingPolygons::kCapacity == 64);
+    return ~std::uint64_t{0} >> (64 - waiting.polygons.count) & ~kernels().apart_throughout(waiting.polygons, reach);
   }
 
   void settle(FeaturePair kind, int a, int b) {
@@ -450,6 +515,8 @@ class ImpactSearch {
   SearchMemory& memory_;
   std::vector<FeatureImpact>& found_;
   MotionCounts& counts_;
+  std::vector<FeatureCandidate>* const kept_;  // null: none are
+  double kept_wider_ = 0.0, kept_size_ = 0.0;  // of those that are, and of the clusters on their ways so far
 };
 
 }  // namespace
@@ -491,16 +558,29 @@ void ImpactFinder::begin(const Box& all) {
   memory_->b.begin(nullptr);
 }
 
+double ImpactFinder::kept_reach(const MovingMesh& a, const MovingMesh& b) const {
+  const Box all = merged(merged(a.begin.box, a.end.box), merged(b.begin.box, b.end.box));
+  return kKeptOfCoordinate * (memory_->largest / memory_->scale) + kNearly * longest_side(all);
+}
+
 void ImpactFinder::run(const MovingMesh& a, const MovingMesh& b, const FeatureRules& rules,
                        std::span<const ClusterPair> pairs, std::atomic<double>* first,
-                       std::vector<FeatureImpact>& found, MotionCounts& counts) {
-  ImpactSearch search(a, b, rules, first, *memory_, found, counts);
+                       std::vector<FeatureImpact>& found, MotionCounts& counts, std::vector<FeatureCandidate>* kept) {
+  ImpactSearch search(a, b, rules, first, *memory_, found, counts, kept);
+  const double reach = rules.reach.largest() + (kept == nullptr ? 0.0 : kept_reach(a, b));
   for (const ClusterPair& pair : pairs) {
-    if (first != nullptr &&
-        earliest_time(a, pair.a, b, pair.b, rules.reach.largest()) > first->load(std::memory_order_relaxed))
+    if (first != nullptr && earliest_time(a, pair.a, b, pair.b, reach) > first->load(std::memory_order_relaxed))
       continue;
     search.search(pair);
   }
+  search.finish();
+}
+
+void ImpactFinder::run_again(const MovingMesh& a, const MovingMesh& b, const FeatureRules& rules,
+                             std::span<const FeatureCandidate> kept, std::atomic<double>* first,
+                             std::vector<FeatureImpact>& found, MotionCounts& counts) {
+  ImpactSearch search(a, b, rules, first, *memory_, found, counts, nullptr);
+  for (const FeatureCandidate& one : kept) search.look_again(one);
   search.finish();
 }
 

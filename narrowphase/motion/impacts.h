@@ -35,6 +35,12 @@ struct FeatureImpact {
   }
 };
 
+/// Two features by the numbers of their meshes.
+struct FeatureCandidate {
+  FeaturePair kind;
+  int a, b;
+};
+
 struct MotionCounts {
   std::int64_t candidates = 0;  // pairs of features whose boxes overlap
   std::int64_t searched = 0;    // of them, those that the filter did not settle
@@ -67,14 +73,28 @@ class ImpactFinder {
   /// Call it before meshes that have moved: on their ways they are all in the box.
   void begin(const Box& all);
 
+  /// How much farther apart than their reach two meshes are to be where run() does not keep candidates of theirs,
+  /// metres.
+  double kept_reach(const MovingMesh& a, const MovingMesh& b) const;
+
   /// Appends the impacts of some cluster pairs of `a` and `b`, which may be one mesh, in no particular order. All
   /// cluster pairs together give each impact once. Features meet that come within their reach of each other, if the
   /// rules allow; those of one mesh that are no contact there meet where they share a point: contact_on_way.h. If only
   /// the first impact is wanted that stops, `first` is not null: it falls to the time of what is found, and later
   /// impacts may be left out, and all that do not stop. Give the cluster pairs that come first first. Features that
-  /// part and meet again have two impacts.
+  /// part and meet again have two impacts. If `kept` is not null, and the pairs are those within reach and
+  /// kept_reach(), it gets the candidates that may meet on a part of the way, from its beginning to the first impact,
+  /// with positions that are wrong by kWrong of the largest coordinate.
   void run(const MovingMesh& a, const MovingMesh& b, const FeatureRules& rules, std::span<const ClusterPair> pairs,
-           std::atomic<double>* first, std::vector<FeatureImpact>& found, MotionCounts& counts);
+           std::atomic<double>* first, std::vector<FeatureImpact>& found, MotionCounts& counts,
+           std::vector<FeatureCandidate>* kept = nullptr);
+
+  /// The same of some candidates that were kept.
+  void run_again(const MovingMesh& a, const MovingMesh& b, const FeatureRules& rules,
+                 std::span<const FeatureCandidate> kept, std::atomic<double>* first, std::vector<FeatureImpact>& found,
+                 MotionCounts& counts);
+
+  static constexpr double kWrong = 0x1p-49;
 
  private:
   struct Memory;

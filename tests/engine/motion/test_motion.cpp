@@ -4,12 +4,16 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 #include "tests/support/environment/allocation_hook.h"
 #include "tests/support/generators/bodies.h"
 #include "tests/support/generators/folds.h"
 #include "tests/support/generators/random.h"
+#include "tests/support/hashes/answer_hash.h"
 #include "tests/support/oracles/motion_by_brute_force.h"
 
 namespace tact::tests {
@@ -352,7 +356,11 @@ TEST(DetectMotion, TheFirstIsTheFirstOfAll) {
       ASSERT_EQ(report.impacts().size(), 1u);
       EXPECT_TRUE(equal(report.impacts()[0], *first));
       EXPECT_EQ(report.first_time(), first->time);
-      const MotionStats alone = report.stats(), every = world.detect_motion().stats();
+      const auto stats_of = [&](Impacts wanted) {
+        world.set_margin(ids[0], 0.0);  // it knows nothing of its way
+        return world.detect_motion(wanted).stats();
+      };
+      const MotionStats alone = stats_of(Impacts::first), every = stats_of(Impacts::all);
       EXPECT_LT(2 * alone.candidates, every.candidates);
       EXPECT_EQ(alone.cluster_pairs, every.cluster_pairs);
     }
@@ -417,6 +425,94 @@ TEST(DetectMotion, ASolverThatStopsBeforeImpactsSettlesWithinTheMargins) {
   EXPECT_LE(stalled, 3);
   EXPECT_GT(in_contact, 200);
   EXPECT_NEAR(gap, kReach, 1e-6);
+}
+
+// A couple in a world that has seen where it begins.
+struct CoupleOnItsWay {
+  tact::World world;
+  BodyId a, b;
+
+  CoupleOnItsWay(const Couple& couple, double margin, int threads) : world({.threads = threads}) {
+    a = world.add_body({.positions = couple.a.begin.positions, .facets = couple.a.begin.facets, .margin = margin});
+    b = world.add_body({.positions = couple.b.begin.positions, .facets = couple.b.begin.facets, .margin = margin});
+    world.detect();
+  }
+  void go(const Couple& couple, double part_a, double part_b) {
+    // As two solvers write it.
+    world.set_positions(a, couple.a.begin.positions + part_a * (couple.a.end - couple.a.begin.positions));
+    world.set_positions(b, (1.0 - part_b) * couple.b.begin.positions + part_b * couple.b.end);
+  }
+};
+
+AnswerHashes answer_of(tact::World& world, const MotionOptions& options) {
+  AnswerHash answer;
+  answer.add(world.detect_motion(options));
+  return answer.hashes();
+}
+
+// What a call knows of an earlier one on a longer way changes no answer: two bodies that go the same part, or each its
+// own, which is another way; and farther again.
+TEST(DetectMotion, OnAPartOfAWayIsAsWithoutTheWholeOne) {
+  const std::vector<Couple> every = couples();
+  std::vector<Couple> all{every[2], every[5], every[10], every[1]};
+  all.back().name = "balls that graze, far away";
+  for (MovingMesh* const mesh : {&all.back().a, &all.back().b}) {
+    mesh->begin.positions.array() += 3e5;
+    mesh->end.array() += 3e5;
+  }
+  std::int64_t candidates = 0, without = 0;
+  for (const Couple& couple : all) {
+    for (const Impacts wanted : {Impacts::all, Impacts::first, Impacts::first_of_pair}) {
+      const double margin = wanted == Impacts::first ? 0.02 : 0.0;
+      CoupleOnItsWay known(couple, margin, 2), scratch(couple, margin, 1);
+      known.go(couple, 1.0, 1.0);
+      const double first = std::min(known.world.detect_motion(wanted).first_time(), 1.0);
+      for (const auto [part, of_b] : {std::array{0.9, 0.9}, {0.6, 0.5}, {0.999 * first, 0.999 * first}, {0.3, 0.3}}) {
+        if (!(part > 0.0)) continue;
+        const MotionOptions options{.wanted = part == 0.3 ? Impacts::all : wanted, .bounds = part == 0.3};
+        for (CoupleOnItsWay* const two : {&known, &scratch}) two->go(couple, part, of_b);
+        scratch.world.set_margin(scratch.a, margin);  // it knows nothing of its way
+        EXPECT_EQ(answer_of(known.world, options), answer_of(scratch.world, options))
+            << couple.name << ", " << part << " and " << of_b << " of the way";
+        if (&couple != &all.front() || wanted != Impacts::all || part != 0.9) continue;
+        candidates += known.world.detect_motion(options).stats().candidates;
+        scratch.world.set_margin(scratch.a, margin);
+        without += scratch.world.detect_motion(options).stats().candidates;
+      }
+    }
+  }
+  EXPECT_LT(2 * candidates, without);
+}
+
+// What changes besides positions is seen by the next call on the same way.
+TEST(DetectMotion, OnAPartOfAWayGoesByTheSettingsOfNow) {
+  const Couple couple = couples()[1];
+  using Change = std::function<void(CoupleOnItsWay&)>;
+  const std::vector<Change> changes{
+      [](CoupleOnItsWay& two) { two.world.set_margin(two.a, 0.1); },
+      [](CoupleOnItsWay& two) { two.world.set_rest_offset(two.b, 0.01); },
+      [](CoupleOnItsWay& two) { two.world.set_layers(two.a, 2, 2); },
+      [](CoupleOnItsWay& two) { two.world.set_excluded(two.a, two.b, true); },
+      [](CoupleOnItsWay& two) { two.world.set_self_contact(two.a, true); },
+      [](CoupleOnItsWay& two) { two.world.set_motion(two.b, Motion::fixed); },
+      [&](CoupleOnItsWay& two) {
+        std::vector<int> map(static_cast<std::size_t>(couple.a.end.cols()));
+        std::iota(map.begin(), map.end(), 0);
+        two.world.set_facets(two.a, couple.a.end, couple.a.begin.facets.leftCols(100), map);
+      },
+      [](CoupleOnItsWay& two) { two.world.detect(); },
+      [](CoupleOnItsWay& two) { two.world.restore(two.world.save()); },
+  };
+  for (const Change& change : changes) {
+    CoupleOnItsWay known(couple, 0.02, 1), scratch(couple, 0.02, 1);
+    for (CoupleOnItsWay* const two : {&known, &scratch}) {
+      two->go(couple, 1.0, 1.0);
+      if (two == &known) two->world.detect_motion();
+      change(*two);
+      if (two->world.motion(two->b) != Motion::fixed) two->go(couple, 0.7, 0.7);
+    }
+    EXPECT_EQ(answer_of(known.world, {}), answer_of(scratch.world, {})) << "change " << &change - changes.data();
+  }
 }
 
 TEST(DetectMotion, SteadyStepsAllocateNothing) {
