@@ -105,6 +105,25 @@ void copy_points(const Report& report, const PointArrays& arrays) {
   }
 }
 
+void copy_point_labels(const World& world, const Report& report, const PointLabelArrays& arrays) {
+  const std::size_t rows = point_count(report);
+  check_size(arrays.a_facets, rows, 1, "a_facets");
+  check_size(arrays.b_facets, rows, 1, "b_facets");
+  check_size(arrays.a_vertices, rows, 3, "a_vertices");
+  check_size(arrays.b_vertices, rows, 3, "b_vertices");
+  std::size_t row = 0;
+  for (const Contact& contact : report.contacts()) {
+    for (const ContactPoint& point : contact.points()) {
+      const FeatureLabels a = world.labels(contact.a, point.a_vertices), b = world.labels(contact.b, point.b_vertices);
+      put(arrays.a_facets, row, a.facet);
+      put(arrays.b_facets, row, b.facet);
+      put_three(arrays.a_vertices, row, a.vertices);
+      put_three(arrays.b_vertices, row, b.vertices);
+      ++row;
+    }
+  }
+}
+
 void copy_reach_pairs(const Report& report, const ReachPairArrays& arrays) {
   const std::size_t rows = reach_pair_count(report);
   check_sizes_of_features(arrays, rows);

@@ -468,6 +468,10 @@ class EveryCallOfC {
     call([&] { return tact_report_copy_points(world_, &of_points, points); });
     call([&] { return tact_report_copy_facet_pairs(world_, &of_pairs, pairs); });
     tell(gaps);
+    std::vector<uint32_t> labels(points);
+    tact_point_label_arrays of_labels = TACT_POINT_LABEL_ARRAYS_INIT;
+    of_labels.a_facets = labels.data();
+    call([&] { return tact_report_copy_point_labels(world_, &of_labels, points); });
     std::vector<uint8_t> minima(points);
     call([&] { return tact_report_joined_minima(world_, nullptr, minima.data(), points); });
     tell(static_cast<std::uint64_t>(std::count(minima.begin(), minima.end(), 1)));

@@ -182,6 +182,7 @@ constexpr Twin kTwins[] = {
     {"ContactSum", "tact_contact_sum", ""},
     {"PointArrays", "tact_point_arrays", ""},
     {"FacetPairArrays", "tact_facet_pair_arrays", ""},
+    {"PointLabelArrays", "tact_point_label_arrays", ""},
     {"JoinedSurfaces", "tact_joined_surfaces", ""},
     {"ReachPair", "tact_reach_pair", ""},
     {"ReachPairArrays", "tact_reach_pair_arrays", ""},

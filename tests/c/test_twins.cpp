@@ -146,6 +146,8 @@ TEST(TwinsInC, OfEachField) {
   expect_twins_of_fields("body_queries.h", "struct Overlap {", "tact_overlap", {});
   for (const auto& [type, twin] : {std::pair("PointArrays", "tact_point_arrays"),
                                    {"FacetPairArrays", "tact_facet_pair_arrays"},
+                                   {"PointLabelArrays", "tact_point_label_arrays"},
+                                   {"ReachPairArrays", "tact_reach_pair_arrays"},
                                    {"ImpactArrays", "tact_impact_arrays"}})
     expect_twins_of_fields("report_arrays.h", "struct " + std::string(type) + " {", twin, {});
   expect_twins_of_fields("joined_minima.h", "struct JoinedSurfaces {", "tact_joined_surfaces", {});

@@ -4,6 +4,7 @@
 #include <tact/world.h>
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "tests/support/generators/bodies.h"
@@ -65,6 +66,35 @@ TEST(ReportArrays, OfPointsHoldThoseOfTheContacts) {
   }
   EXPECT_EQ(row, rows);
   EXPECT_GT(rows, 50u);
+}
+
+TEST(ReportArrays, OfLabelsHoldThoseThatTheWorldTells) {
+  ThreeBallsAndCloth scene;
+  std::vector<std::uint32_t> facets(scene.world.facet_count(scene.balls[1])),
+      vertices(scene.world.vertex_count(scene.balls[1]));
+  for (std::size_t i = 0; i < facets.size(); ++i) facets[i] = 100 + static_cast<std::uint32_t>(i);
+  for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = 5000 + static_cast<std::uint32_t>(i);
+  scene.world.set_feature_settings(scene.balls[1], {.vertex_labels = vertices, .facet_labels = facets});
+  const Report& report = scene.world.detect();
+  const std::size_t rows = point_count(report);
+  auto a_facets = room<std::uint32_t>(rows, 1), b_facets = a_facets;
+  auto a_vertices = room<std::uint32_t>(rows, 3), b_vertices = a_vertices;
+  copy_point_labels(scene.world, report, {a_facets, b_facets, a_vertices, b_vertices});
+  std::size_t row = 0, labelled = 0;
+  for (const Contact& contact : report.contacts()) {
+    for (const ContactPoint& point : contact.points()) {
+      const FeatureLabels a = scene.world.labels(contact.a, point.a_vertices),
+                          b = scene.world.labels(contact.b, point.b_vertices);
+      EXPECT_EQ(a_facets[row], a.facet);
+      EXPECT_EQ(b_facets[row], b.facet);
+      EXPECT_TRUE(std::equal(a.vertices.begin(), a.vertices.end(), &a_vertices[3 * row]));
+      EXPECT_TRUE(std::equal(b.vertices.begin(), b.vertices.end(), &b_vertices[3 * row]));
+      labelled += b.facet >= 100 && b.vertices[0] >= 5000 ? 1 : 0;
+      ++row;
+    }
+  }
+  EXPECT_GT(labelled, 5u);
+  EXPECT_THROW(copy_point_labels(scene.world, report, {.a_facets = std::span(a_facets).first(1)}), Error);
 }
 
 TEST(ReportArrays, OfFacetPairsHoldThoseOfTheContacts) {

@@ -41,6 +41,17 @@ def test_labels_are_given_back(scene):
     assert len(settings.rest_offsets) == 0
 
 
+def test_labels_of_a_whole_report(scene):
+    world, sheet = scene
+    world.set_feature_settings(sheet, vertex_labels=[10, 11, 12, 13], facet_labels=np.array([20, 2**32 - 1]))
+    report = world.detect()
+    labels, points = world.point_labels(report), report.contacts[0].points
+    assert len(labels) == len(points) == 4 and labels.b_vertices.shape == (4, 3)
+    np.testing.assert_array_equal(labels.a_facets, world.labels(sheet, points.a_vertices)[:, 3])
+    np.testing.assert_array_equal(labels.a_vertices, world.labels(sheet, points.a_vertices)[:, :3])
+    assert not labels.b_facets.any()  # a plane has none
+
+
 def test_masks_leave_out(scene):
     world, sheet = scene
     world.set_feature_settings(sheet, vertex_masks=[1, 1, 0, 1], vertex_layers=[1, 1, 1, 2])

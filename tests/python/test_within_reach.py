@@ -20,3 +20,7 @@ def test_pairs_within_reach_have_places_at_their_distance():
     np.testing.assert_allclose(np.linalg.norm(way, axis=1), pairs.distances, atol=1e-12)
     np.testing.assert_allclose(way, pairs.distances[:, None] * pairs.normals, atol=1e-12)
     assert len(contact.points) == 0
+    everything = world.detect().within_reach
+    assert len(everything) == len(pairs) and not everything.contacts.any() and (everything.bodies == [0, 1]).all()
+    for name in ("kinds", "a_vertices", "b_vertices", "a_weights", "b_weights", "normals", "distances"):
+        np.testing.assert_array_equal(getattr(everything, name), getattr(pairs, name), err_msg=name)

@@ -65,6 +65,18 @@ tact_error tact_report_copy_points(tact_world world, const tact_point_arrays* ar
   });
 }
 
+tact_error tact_report_copy_point_labels(tact_world world, const tact_point_label_arrays* arrays, size_t rows) {
+  return tact::c::reading(world, [&](const tact::c::WorldEntry& entry) {
+    check_not_null(arrays);
+    const tact::Report& report = tact::c::report_of(entry);
+    check_rows(rows, point_count(report));
+    const tact_point_label_arrays to = read_struct(*arrays, tact_point_label_arrays TACT_POINT_LABEL_ARRAYS_INIT);
+    copy_point_labels(entry.world, report,
+                      {array_of(to.a_facets, rows, 1), array_of(to.b_facets, rows, 1), array_of(to.a_vertices, rows, 3),
+                       array_of(to.b_vertices, rows, 3)});
+  });
+}
+
 tact_error tact_report_copy_reach_pairs(tact_world world, const tact_reach_pair_arrays* arrays, size_t rows) {
   return with_report(world, [&](const tact::Report& report) {
     check_not_null(arrays);

@@ -1,8 +1,11 @@
 #include "contact_sums.h"
 
 #include <tact/joined_minima.h>
+#include <tact/report_arrays.h>
 
+#include <array>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -59,6 +62,26 @@ SumArrays sum_contacts_of(SharedWorld& world, const OfReport<Report>& report, co
   return arrays_of(sum_contacts(world.read(), *report.held(), given));
 }
 
+// The labels of what the points of a report name, a row a point. They are copies.
+struct PointLabels {
+  py::array_t<std::uint32_t> a_facets, b_facets, a_vertices, b_vertices;
+};
+
+PointLabels point_labels_of(SharedWorld& world, const OfReport<Report>& report) {
+  const auto held = report.held();
+  const auto n = static_cast<py::ssize_t>(point_count(*held));
+  const std::array<py::ssize_t, 2> three{n, 3};
+  PointLabels labels{py::array_t<std::uint32_t>(n), py::array_t<std::uint32_t>(n), py::array_t<std::uint32_t>(three),
+                     py::array_t<std::uint32_t>(three)};
+  const auto all_of = [](py::array_t<std::uint32_t>& array) {
+    return std::span(array.mutable_data(), static_cast<std::size_t>(array.size()));
+  };
+  copy_point_labels(
+      world.read(), *held,
+      {all_of(labels.a_facets), all_of(labels.b_facets), all_of(labels.a_vertices), all_of(labels.b_vertices)});
+  return labels;
+}
+
 py::array_t<bool> joined_minima_of(SharedWorld& world, const OfReport<Report>& report, double within,
                                    std::uint32_t layers) {
   std::vector<std::uint8_t> minima;
@@ -98,6 +121,17 @@ void define_contact_sums(py::module_& module, WorldClass& world) {
             py::arg("impulses") = Numbers(std::vector<py::ssize_t>{0, 3}),
             "adds up the points of a world's last report, at the current positions. `ids` (N,) and `impulses` (N, 3) "
             "are of points");
+  py::class_<PointLabels>(
+      module, "PointLabelArrays",
+      "Arrays for the labels of what the points of a whole report name; 0 where there is none. A row a point.")
+      .def_readonly("a_facets", &PointLabels::a_facets,
+                    "(N,) uint32: that of a's facet, or of the first that has the vertex or the edge")
+      .def_readonly("b_facets", &PointLabels::b_facets, "(N,) uint32: the same of b")
+      .def_readonly("a_vertices", &PointLabels::a_vertices, "(N, 3) uint32: those of a's vertices, 3 a point")
+      .def_readonly("b_vertices", &PointLabels::b_vertices, "(N, 3) uint32: those of b's vertices, 3 a point")
+      .def("__len__", [](const PointLabels& labels) { return labels.a_facets.size(); });
+  world.def("point_labels", point_labels_of, py::arg("report"),
+            "the labels of the points of all contacts of a world's last report, in their order");
   world.def(
       "joined_minima", joined_minima_of, py::arg("report"), py::kw_only(), py::arg("within") = 0.0,
       py::arg("layers") = 0u,

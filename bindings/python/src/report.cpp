@@ -156,7 +156,7 @@ void define_reach_pairs(py::module_& module) {
       .def("__len__", [](const ReachPairs& pairs) { return pairs.distances.size(); });
 }
 
-// The points and facet pairs of a whole report. They are copies.
+// The points and pairs of a whole report. They are copies.
 struct AllPoints {
   py::array_t<std::int64_t> bodies;
   py::array_t<int> contacts;
@@ -169,6 +169,13 @@ struct AllPoints {
 struct AllFacetPairs {
   py::array_t<std::int64_t> bodies;
   py::array_t<int> contacts, facets;
+};
+struct AllReachPairs {
+  py::array_t<std::int64_t> bodies;
+  py::array_t<int> contacts;
+  py::array_t<std::uint8_t> kinds;
+  py::array_t<int> a_vertices, b_vertices;
+  py::array_t<double> a_weights, b_weights, normals, distances;
 };
 
 template <class Number>
@@ -225,6 +232,30 @@ AllFacetPairs all_facet_pairs(const ReportHandle& report) {
   return all;
 }
 
+AllReachPairs all_reach_pairs(const ReportHandle& report) {
+  const auto held = report.held();
+  const std::size_t count = reach_pair_count(*held);
+  const auto n = static_cast<py::ssize_t>(count);
+  const std::array<py::ssize_t, 2> two{n, 2}, three{n, 3};
+  std::vector<std::uint32_t> bodies(2 * count);
+  AllReachPairs all{py::array_t<std::int64_t>(two), py::array_t<int>(n),        py::array_t<std::uint8_t>(n),
+                    py::array_t<int>(three),        py::array_t<int>(three),    py::array_t<double>(three),
+                    py::array_t<double>(three),     py::array_t<double>(three), py::array_t<double>(n)};
+  copy_reach_pairs(*held, {.bodies = bodies,
+                           .contacts = all_of(all.contacts),
+                           .kinds = all_of(all.kinds),
+                           .a_vertices = all_of(all.a_vertices),
+                           .b_vertices = all_of(all.b_vertices),
+                           .a_weights = all_of(all.a_weights),
+                           .b_weights = all_of(all.b_weights),
+                           .normals = all_of(all.normals),
+                           .distances = all_of(all.distances)});
+  widen(bodies, all_of(all.bodies));
+  protect(all.bodies, all.contacts, all.kinds, all.a_vertices, all.b_vertices, all.a_weights, all.b_weights,
+          all.normals, all.distances);
+  return all;
+}
+
 void define_arrays_of_report(py::module_& module) {
   py::class_<AllPoints>(module, "PointArrays", "Arrays for the contact points of a whole report. A row a point.")
       .def_readonly("bodies", &AllPoints::bodies, "(N, 2) int64: the index of body a and of body b, 2 a point")
@@ -247,6 +278,19 @@ void define_arrays_of_report(py::module_& module) {
       .def_readonly("contacts", &AllFacetPairs::contacts, "(N,): the number of its contact, counted from 0")
       .def_readonly("facets", &AllFacetPairs::facets, "(N, 2): the facet of a and that of b, 2 a pair")
       .def("__len__", [](const AllFacetPairs& pairs) { return pairs.contacts.size(); });
+  py::class_<AllReachPairs>(module, "ReachPairArrays",
+                            "Arrays for the pairs within reach of a whole report. A row a pair.")
+      .def_readonly("bodies", &AllReachPairs::bodies, "(N, 2) int64: the index of body a and of body b, 2 a pair")
+      .def_readonly("contacts", &AllReachPairs::contacts, "(N,): the number of its contact, counted from 0")
+      .def_readonly("kinds", &AllReachPairs::kinds, "(N,) uint8: which features these are, as numbers")
+      .def_readonly("a_vertices", &AllReachPairs::a_vertices, "(N, 3): vertices of a, 3 a pair; -1 fills up")
+      .def_readonly("b_vertices", &AllReachPairs::b_vertices, "(N, 3): vertices of b, 3 a pair; -1 fills up")
+      .def_readonly("a_weights", &AllReachPairs::a_weights, "(N, 3): weights of the vertices of a, 3 a pair")
+      .def_readonly("b_weights", &AllReachPairs::b_weights, "(N, 3): weights of the vertices of b, 3 a pair")
+      .def_readonly("normals", &AllReachPairs::normals,
+                    "(N, 3): unit vectors from a to b, 3 a pair; zero where the distance is")
+      .def_readonly("distances", &AllReachPairs::distances, "(N,): metres")
+      .def("__len__", [](const AllReachPairs& pairs) { return pairs.contacts.size(); });
 }
 
 void define_contact(py::module_& module) {
@@ -391,6 +435,7 @@ void define_report(py::module_& module) {
           "(C,): the depth of each contact, metres")
       .def_property_readonly("points", all_points, "the points of all contacts, in their order")
       .def_property_readonly("facet_pairs", all_facet_pairs, "the facet pairs of all contacts, in their order")
+      .def_property_readonly("within_reach", all_reach_pairs, "the pairs within reach of all contacts, in their order")
       .def_property_readonly("candidate_pairs", candidates_of, "the pairs whose boxes overlap, sorted by (a, b)")
       .def_property_readonly(
           "began", [](const ReportHandle& report) { return events_of(report->began()); },

@@ -464,6 +464,55 @@ class PointArrays:
         """(N,): 1 if nothing beside it on either surface is nearer, else 0"""
     def __len__(self) -> int: ...
 
+class PointLabelArrays:
+    """Arrays for the labels of what the points of a whole report name; 0 where there is none. A row a point."""
+
+    @property
+    def a_facets(self) -> npt.NDArray[np.uint32]:
+        """(N,): that of a's facet, or of the first that has the vertex or the edge"""
+    @property
+    def b_facets(self) -> npt.NDArray[np.uint32]:
+        """(N,): the same of b"""
+    @property
+    def a_vertices(self) -> npt.NDArray[np.uint32]:
+        """(N, 3): those of a's vertices, 3 a point"""
+    @property
+    def b_vertices(self) -> npt.NDArray[np.uint32]:
+        """(N, 3): those of b's vertices, 3 a point"""
+    def __len__(self) -> int: ...
+
+class ReachPairArrays:
+    """Arrays for the pairs within reach of a whole report. A row a pair."""
+
+    @property
+    def bodies(self) -> npt.NDArray[np.int64]:
+        """(N, 2): the index of body a and of body b, 2 a pair"""
+    @property
+    def contacts(self) -> Ints:
+        """(N,): the number of its contact, counted from 0"""
+    @property
+    def kinds(self) -> npt.NDArray[np.uint8]:
+        """(N,): which features these are, as numbers"""
+    @property
+    def a_vertices(self) -> Ints:
+        """(N, 3): vertices of a, 3 a pair; -1 fills up"""
+    @property
+    def b_vertices(self) -> Ints:
+        """(N, 3): vertices of b, 3 a pair; -1 fills up"""
+    @property
+    def a_weights(self) -> Floats:
+        """(N, 3): weights of the vertices of a, 3 a pair"""
+    @property
+    def b_weights(self) -> Floats:
+        """(N, 3): weights of the vertices of b, 3 a pair"""
+    @property
+    def normals(self) -> Floats:
+        """(N, 3): unit vectors from a to b, 3 a pair; zero where the distance is"""
+    @property
+    def distances(self) -> Floats:
+        """(N,): metres"""
+    def __len__(self) -> int: ...
+
 class FacetPairArrays:
     """Arrays for the facet pairs of a whole report. A row a pair."""
 
@@ -575,6 +624,9 @@ class Report:
     @property
     def facet_pairs(self) -> FacetPairArrays:
         """the facet pairs of all contacts, in their order"""
+    @property
+    def within_reach(self) -> ReachPairArrays:
+        """the pairs within reach of all contacts, in their order"""
     def stencils_within_reach(self, first_rows: dict[BodyId, int]) -> ReachStencils:
         """the stencils of all pairs within reach, if Settings.within_reach is set; `first_rows` as for stencils()"""
     def stencils(self, first_rows: dict[BodyId, int]) -> Stencils:
@@ -1052,6 +1104,8 @@ class World:
         self, report: Report, ids: npt.NDArray[np.uint64] = ..., impulses: npt.NDArray[np.floating] = ...
     ) -> ContactSums:
         """adds up the points of a world's last report, at the current positions. `ids` (N,) and `impulses` (N, 3) are of points"""
+    def point_labels(self, report: Report) -> PointLabelArrays:
+        """the labels of the points of all contacts of a world's last report, in their order"""
     def joined_minima(self, report: Report, *, within: float = 0.0, layers: int = 0) -> npt.NDArray[np.bool_]:
         """(N,): for each contact point of a world's last report, in the order of Report.points, whether it is a minimum also of joined surfaces. Facets of one body are joined, whether or not they share vertices, bodies that are not tested against each other, and bodies on `layers`; `within` metres they are at one place"""
     def save(self) -> bytes:

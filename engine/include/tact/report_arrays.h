@@ -3,6 +3,7 @@
 
 #include <tact/motion.h>
 #include <tact/report.h>
+#include <tact/world.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -24,6 +25,14 @@ struct PointArrays {
   std::span<std::uint64_t> ids = {};        ///< the same in every step in which these features are near
   std::span<std::uint64_t> patch_ids = {};  ///< ids of the patches, or 0 where patches are not requested
   std::span<std::uint8_t> minima = {};      ///< 1 if nothing beside it on either surface is nearer, else 0
+};
+
+/// Arrays for the labels of what the points of a whole report name; 0 where there is none. An empty one is left out.
+struct PointLabelArrays {
+  std::span<std::uint32_t> a_facets = {};    ///< that of a's facet, or of the first that has the vertex or the edge
+  std::span<std::uint32_t> b_facets = {};    ///< the same of b
+  std::span<std::uint32_t> a_vertices = {};  ///< those of a's vertices, 3 a point
+  std::span<std::uint32_t> b_vertices = {};  ///< those of b's vertices, 3 a point
 };
 
 /// Arrays for the facet pairs of a whole report. An empty one is left out.
@@ -66,6 +75,9 @@ TACT_API std::size_t facet_pair_count(const Report& report);
 /// Fills arrays with the points of all contacts, in their order. Errors: wrong_size (an array is neither empty nor has
 /// a row for each of point_count()).
 TACT_API void copy_points(const Report& report, const PointArrays& arrays);
+/// Fills arrays with the labels of the points of all contacts of a world's last report, in their order. Errors:
+/// wrong_size, stale_body (a body of the report was removed), invalid_argument (its facets have changed since).
+TACT_API void copy_point_labels(const World& world, const Report& report, const PointLabelArrays& arrays);
 /// Fills arrays with the pairs within reach of all contacts, in their order. Errors: wrong_size.
 TACT_API void copy_reach_pairs(const Report& report, const ReachPairArrays& arrays);
 /// Fills arrays with the facet pairs of all contacts, in their order. Errors: wrong_size.

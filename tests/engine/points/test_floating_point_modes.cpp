@@ -238,6 +238,8 @@ class EveryCall {
     told_.begin("debug_draw");
     call([&] { debug_draw(world, report, told_, {.surfaces = true, .planes = true, .kept_facets = true}); });
     call([&] { debug_draw_sums(world, sum_contacts(world, report), told_); });
+    std::vector<std::uint32_t> labels(point_count(report));
+    call([&] { copy_point_labels(world, report, {.a_facets = labels}); });
     for (const std::uint8_t minimum : call([&] { return joined_minima(world, report); }))
       told_.add(std::uint64_t{minimum});
   }

@@ -271,6 +271,17 @@ typedef struct tact_point_arrays {
 #define TACT_POINT_ARRAYS_INIT \
   { (uint32_t)sizeof(tact_point_arrays), NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL }
 
+/** Arrays for the labels of what the points of a whole report name; 0 where there is none. A null one is left out. */
+typedef struct tact_point_label_arrays {
+  uint32_t struct_size;
+  uint32_t* a_facets;   /**< that of a's facet, or of the first that has the vertex or the edge */
+  uint32_t* b_facets;   /**< the same of b */
+  uint32_t* a_vertices; /**< those of a's vertices, 3 a point */
+  uint32_t* b_vertices; /**< those of b's vertices, 3 a point */
+} tact_point_label_arrays;
+#define TACT_POINT_LABEL_ARRAYS_INIT \
+  { (uint32_t)sizeof(tact_point_label_arrays), NULL, NULL, NULL, NULL }
+
 /** Arrays for the facet pairs of a whole report. A null one is left out. */
 typedef struct tact_facet_pair_arrays {
   uint32_t struct_size;
@@ -306,6 +317,10 @@ TACT_C_API tact_error tact_report_facet_pair_count(tact_world world, size_t* cou
 /** Fills arrays with the points of all contacts, in their order. `rows` is the number of points that they have room
  * for: tact_report_point_count(). */
 TACT_C_API tact_error tact_report_copy_points(tact_world world, const tact_point_arrays* arrays, size_t rows);
+/** Fills arrays with the labels of the points of all contacts of the last step, in their order. `rows` is
+ * tact_report_point_count(). */
+TACT_C_API tact_error tact_report_copy_point_labels(tact_world world, const tact_point_label_arrays* arrays,
+                                                    size_t rows);
 /** Fills arrays with the pairs within reach of all contacts, in their order. `rows` is tact_report_reach_pair_count().
  */
 TACT_C_API tact_error tact_report_copy_reach_pairs(tact_world world, const tact_reach_pair_arrays* arrays, size_t rows);
