@@ -135,10 +135,51 @@ inline Pack facet_distance_squared(const VectorPack& a, const VectorPack& b, con
   return sub(squared, mul(spread(0x1p-34), most));
 }
 
+// Facets whose planes certainly are farther from the origin than the square root of `limit`, which is to hold what
+// facet_distance_squared() takes off. Without the third side, as no side is longer than the two others together.
+inline Mask planes_beyond(const VectorPack& a, const VectorPack& b, const VectorPack& c, Pack limit) {
+  const VectorPack ab = sub(b, a), ac = sub(c, a), normal = cross(ab, ac);
+  const Pack square = dot(normal, normal), height = dot(normal, a), longest = max(dot(ab, ab), dot(ac, ac));
+  const Mask wide = less(mul(spread(0x1p-16), mul(longest, longest)), square);
+  return both(wide, less(mul(square, limit), mul(height, height)));
+}
+
+constexpr int kRankedVertices = 192 + 64;  // room for those of a cluster
+constexpr int kManyRanked = FacetDistances::kCapacity / 2;
+
+inline VectorPack corners(const double (&at)[3][kRankedVertices], const std::uint8_t* corner) {
+  return {gather(at[0], corner), gather(at[1], corner), gather(at[2], corner)};
+}
+
+// From the middle of a ball all facets are nearly as near as the nearest one, and most of their planes are not: those of
+// the listed facets whose planes are are left, with their distances.
+void rank_many(const double (&at)[3][kRankedVertices], const std::uint8_t (&corner)[3][2 * FacetDistances::kCapacity],
+               int vertex_count, Pack beyond, FacetDistances* facets) {
+  Pack farthest = spread(0.0);
+  for (int i = 0; i < vertex_count; i += kWidth) {
+    const VectorPack p{load(at[0] + i), load(at[1] + i), load(at[2] + i)};
+    farthest = max(farthest, select(mask_of(lanes_left(vertex_count - i)), dot(p, p), spread(0.0)));
+  }
+  const Pack limit = add(beyond, spread(0x1p-33 * largest_lane(farthest)));
+  const int listed = facets->count;
+  facets->count = 0;
+  for (int i = 0; i < listed; i += kWidth) {
+    const VectorPack a = corners(at, corner[0] + i), b = corners(at, corner[1] + i), c = corners(at, corner[2] + i);
+    const unsigned near = ~bits(planes_beyond(a, b, c, limit)) & lanes_left(listed - i);
+    if (near == 0) continue;
+    alignas(64) double squared[kWidth];
+    store(squared, facet_distance_squared(a, b, c));
+    for (int lane = 0; lane < kWidth; ++lane) {
+      if ((near >> lane & 1u) == 0) continue;
+      facets->least_squared[facets->count] = squared[lane];
+      facets->facet[facets->count++] = facets->facet[i + lane];
+    }
+  }
+}
+
 void rank_facets(const ClusterFacets& cluster, const double* point, double scale, double most, FacetDistances* facets) {
-  constexpr int kRoom = 192 + 64;
-  alignas(64) double at[3][kRoom];
-  alignas(64) std::uint8_t outside[kRoom];
+  alignas(64) double at[3][kRankedVertices];
+  alignas(64) std::uint8_t outside[kRankedVertices];
   const Pack origin[3] = {spread(point[0]), spread(point[1]), spread(point[2])}, unit = spread(scale);
   const int count = cluster.owned_count + cluster.borrowed_count;
   for_cluster_points(cluster, [&](int k, Pack x, Pack y, Pack z) {
@@ -188,12 +229,10 @@ void rank_facets(const ClusterFacets& cluster, const double* point, double scale
     compress(left, cluster.corner[k], corner[k]);
     for (int n = facets->count; n < facets->count + kWidth; ++n) corner[k][n] = 0;
   }
-  for (int i = 0; i < facets->count; i += kWidth) {
-    const auto of = [&](int k) {
-      return VectorPack{gather(at[0], corner[k] + i), gather(at[1], corner[k] + i), gather(at[2], corner[k] + i)};
-    };
-    store(facets->least_squared + i, facet_distance_squared(of(0), of(1), of(2)));
-  }
+  if (facets->count > kManyRanked) return rank_many(at, corner, count, beyond, facets);
+  for (int i = 0; i < facets->count; i += kWidth)
+    store(facets->least_squared + i,
+          facet_distance_squared(corners(at, corner[0] + i), corners(at, corner[1] + i), corners(at, corner[2] + i)));
 }
 
 // Which facets of a block certainly do not face a direction. In the unit of `scale` corners that are counted from a

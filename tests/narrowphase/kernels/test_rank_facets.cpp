@@ -7,7 +7,9 @@
 
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/mesh/open_in_box.h"
+#include "tests/support/generators/bodies.h"
 #include "tests/support/generators/random.h"
+#include "tests/support/inside/clustered.h"
 #include "tests/support/inside/facet_filters.h"
 #include "tests/support/inside/local_clusters.h"
 
@@ -89,6 +91,38 @@ TEST(RankFacets, NeverSaysTooFarAndKeepsTheNearest) {
     }
   });
   EXPECT_LT(listed, facets / 2);
+}
+
+// Of all facets some lie a little nearer, as they are larger.
+TEST(RankFacets, FromTheMiddleOfABallListsThoseWhosePlanesAreNear) {
+  const ClusteredMesh mesh = tests::clustered(tests::icosphere(4));
+  for (const Vec3 point : {Vec3{}, Vec3{1e-3, 2e-3, -1e-3}}) {
+    std::vector<double> squares;
+    for (int f = 0; f < mesh.facet_count(); ++f)
+      squares.push_back(static_cast<double>(distance_squared(point, mesh.triangle(f))));
+    const double nearest = *std::ranges::min_element(squares), most = nearest * (1.0 + 0x1p-40);
+    const double at[3] = {point.x, point.y, point.z};
+    int listed = 0;
+    for (int c = 0; c < mesh.cluster_count(); ++c) {
+      const ClusterFacets cluster = mesh.facets_of(c);
+      FacetDistances expected;
+      scalar_kernels()->rank_facets(cluster, at, 1.0, most, &expected);
+      listed += expected.count;
+      for (int f = 0; f < cluster.facet_count; ++f) {
+        if (squares[cluster.facet_begin + f] == nearest) {
+          EXPECT_NE(std::find(expected.facet, expected.facet + expected.count, f), expected.facet + expected.count);
+        }
+      }
+      for (const Kernels* kernels : tests::available_kernels()) {
+        FacetDistances found;
+        kernels->rank_facets(cluster, at, 1.0, most, &found);
+        ASSERT_EQ(found.count, expected.count) << kernels->name;
+        EXPECT_TRUE(std::equal(found.facet, found.facet + found.count, expected.facet)) << kernels->name;
+        EXPECT_TRUE(std::equal(found.least_squared, found.least_squared + found.count, expected.least_squared));
+      }
+    }
+    EXPECT_LT(listed, mesh.facet_count() / 4);
+  }
 }
 
 TEST(RankBlock, HoldsTheFacetsWithinReachAndNeverSaysTooFar) {
