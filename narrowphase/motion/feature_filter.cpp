@@ -53,11 +53,13 @@ bool FeatureFilter::is_uniform() const {
 }
 
 bool FeatureFilter::allows_vertices(const Three& vertices_a, const Three& vertices_b) const {
-  if (a.of_vertices.are_uniform() && b.of_vertices.are_uniform() && neighbors == nullptr) return true;
+  const bool by_lists = !a.of_vertices.are_uniform() || !b.of_vertices.are_uniform();
+  if (!by_lists && neighbors == nullptr) return true;
   for (std::size_t i = 0; i < 3 && (i == 0 || vertices_a[i] >= 0); ++i) {
     const Element of_a = element_of(a, a.of_vertices, vertices_a[i]);
     for (std::size_t k = 0; k < 3 && (k == 0 || vertices_b[k] >= 0); ++k) {
-      if (!are_tested(of_a, element_of(b, b.of_vertices, vertices_b[k]), excluded_of_vertices)) return false;
+      if (by_lists && !are_tested(of_a, element_of(b, b.of_vertices, vertices_b[k]), excluded_of_vertices))
+        return false;
       if (neighbors != nullptr && neighbors->has(vertices_a[i], vertices_b[k])) return false;
     }
   }
