@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -61,12 +62,9 @@ std::vector<std::vector<int>> steps_between(const FilteredBody& body) {
   constexpr int kFar = 1000;
   const std::size_t count = body.vertex_count();
   std::vector<std::vector<int>> steps(count, std::vector<int>(count, kFar));
-  for (std::size_t v = 0; v < count; ++v) steps[v][v] = 0;
   for (const std::vector<int>& element : body.elements()) {
     for (const int v : element) {
-      for (const int w : element) {
-        if (v != w) steps[static_cast<std::size_t>(v)][static_cast<std::size_t>(w)] = 1;
-      }
+      for (const int w : element) steps[static_cast<std::size_t>(v)][static_cast<std::size_t>(w)] = v == w ? 0 : 1;
     }
   }
   for (std::size_t k = 0; k < count; ++k) {
@@ -231,10 +229,14 @@ auto named_features(const One& one) {
   return std::tuple(one.a.index, one.b.index, one.kind, one.a_vertices, one.b_vertices, one.time);
 }
 
-using PairOfIndices = std::pair<std::uint32_t, std::uint32_t>;
+std::vector<int> first_numbers(int count) {
+  std::vector<int> numbers(static_cast<std::size_t>(count));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
 
-std::map<PairOfIndices, const Contact*> contacts_by_bodies(const Report& report) {
-  std::map<PairOfIndices, const Contact*> found;
+auto contacts_by_bodies(const Report& report) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, const Contact*> found;
   for (const Contact& contact : report.contacts()) found[{contact.a.index, contact.b.index}] = &contact;
   return found;
 }
@@ -362,25 +364,6 @@ TEST(MarginsOfVertices, GiveWhatUniformMarginsGive) {
   EXPECT_GT(compared, 500u);
 }
 
-TEST(MarginsOfVertices, AreTheRestOffsetsWhereNoneAreGiven) {
-  World world({.threads = 1, .outputs = {.points = true}});
-  const Mesh mesh = translated(box({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}), {0.0, 0.0, 0.05});
-  const BodyId body = world.add_body({.positions = mesh.positions, .facets = mesh.facets, .margin = 0.1});
-  const BodyId floor = world.add_plane({});
-  EXPECT_TRUE(world.detect().find_contact(body, floor)->touching());
-  std::vector<double> margins(8, 0.02);
-  world.set_feature_settings(body, {.margins = margins});
-  EXPECT_FALSE(world.detect().find_contact(body, floor)->touching());
-  EXPECT_TRUE(world.detect().find_contact(body, floor)->points().empty());
-  world.set_positions(body, translated(mesh, {0.0, 0.0, -0.05}).positions);
-  EXPECT_NEAR(world.detect_motion().first_time(), 0.6, 1e-6);
-  margins[0] = 0.06;
-  world.set_positions(body, mesh.positions);
-  world.set_feature_settings(body, {.margins = margins});
-  const Contact* const contact = world.detect().find_contact(body, floor);
-  EXPECT_EQ(contact->points().size(), mesh.positions(2, 0) < 0.5 ? 1u : 0u);
-}
-
 // A collar that is sewn to what it lies on: facets of the seam never meet it, the others do.
 TEST(ExcludedLabels, KeepASeamApart) {
   World world({.threads = 1, .outputs = {.points = true, .within_reach = true}});
@@ -412,9 +395,7 @@ TEST(ExcludedLabels, KeepASeamApart) {
   EXPECT_FALSE(world.excluded_labels({.a = under, .label_a = 5, .b = over, .label_b = 7, .kind = LabelKind::vertex}));
   EXPECT_EQ(vertices().size(), 2u) << "the line between both has facets of both";
   // Labels of facets go with them, and the seam with the labels.
-  std::vector<int> facets(of_collar.size()), same(static_cast<std::size_t>(collar.vertex_count()));
-  for (std::size_t i = 0; i < facets.size(); ++i) facets[i] = static_cast<int>(i);
-  for (std::size_t i = 0; i < same.size(); ++i) same[i] = static_cast<int>(i);
+  const std::vector<int> facets = first_numbers(collar.facet_count()), same = first_numbers(collar.vertex_count());
   world.set_facets(over,
                    {.positions = collar.positions, .facets = collar.facets, .vertex_map = same, .facet_map = facets});
   EXPECT_EQ(vertices().size(), 2u);
@@ -459,8 +440,7 @@ TEST(SelfContactFilters, LetARopeBeThickerThanItsSegments) {
     for (const ReachPair& pair : world.detect().find_contact(rope, rope)->within_reach())
       EXPECT_GT(std::abs(pair.a_vertices[0] - pair.b_vertices[0]), 3);
     // Rings are those of the facets that there are; positions at rest go with vertices.
-    std::vector<int> same(kVertices);
-    for (int v = 0; v < kVertices; ++v) same[static_cast<std::size_t>(v)] = v;
+    const std::vector<int> same = first_numbers(kVertices);
     const std::size_t before = found();
     world.set_facets(rope, {.positions = bent, .edges = edges, .vertex_map = same});
     EXPECT_EQ(found(), before);
@@ -470,6 +450,31 @@ TEST(SelfContactFilters, LetARopeBeThickerThanItsSegments) {
     world.set_self_contact_filter(rope, {});
     EXPECT_GT(found(), before);
   }
+}
+
+// What is found of one body is cut into ranges, which several threads hold against its filters.
+TEST(FeatureFilters, LeaveOutTheSameWithAnyNumberOfThreads) {
+  const Mesh cloth = wrinkled_sheet(14, 1.0, 0.05, 1);
+  Random random(5);
+  FilteredBody body = filtered_body(cloth, random, 5);
+  const auto found = [&](int threads) {
+    World world({.threads = threads, .outputs = kAllFound});
+    const BodyId id = world.add_body({.positions = body.mesh.positions,
+                                      .facets = body.mesh.facets,
+                                      .surface = Surface::sheet,
+                                      .margin = kWide,
+                                      .self_contact = true});
+    world.set_feature_settings(id, body.settings());
+    world.set_self_contact_filter(id, {.rings = 1});
+    std::vector<std::pair<Corner3, Corner3>> pairs;
+    const Contact& contact = *world.detect().find_contact(id, id);
+    for (const ReachPair& pair : contact.within_reach()) pairs.emplace_back(pair.a_vertices, pair.b_vertices);
+    for (const ContactPoint& point : contact.points()) pairs.emplace_back(point.a_vertices, point.b_vertices);
+    return pairs;
+  };
+  const auto expected = found(1);
+  EXPECT_GT(expected.size(), 1024u);
+  EXPECT_EQ(found(3), expected);
 }
 
 TEST(FeatureFilters, GoWithFacetsThatChange) {

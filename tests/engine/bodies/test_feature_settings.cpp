@@ -182,6 +182,25 @@ TEST(RestOffsets, EventsFollowThem) {
   EXPECT_EQ(world.detect().ended().size(), 1u);
 }
 
+TEST(RestOffsets, AreTheMarginsOfVerticesWhereNoneAreGiven) {
+  World world({.threads = 1, .outputs = {.points = true}});
+  const Mesh mesh = translated(box({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}), {0.0, 0.0, 0.05});
+  const BodyId body = world.add_body({.positions = mesh.positions, .facets = mesh.facets, .margin = 0.1});
+  const BodyId floor = world.add_plane({});
+  EXPECT_TRUE(world.detect().find_contact(body, floor)->touching());
+  std::vector<double> margins(8, 0.02);
+  world.set_feature_settings(body, {.margins = margins});
+  EXPECT_FALSE(world.detect().find_contact(body, floor)->touching());
+  EXPECT_TRUE(world.detect().find_contact(body, floor)->points().empty());
+  world.set_positions(body, translated(mesh, {0.0, 0.0, -0.05}).positions);
+  EXPECT_NEAR(world.detect_motion().first_time(), 0.6, 1e-6);
+  margins[0] = 0.06;
+  world.set_positions(body, mesh.positions);
+  world.set_feature_settings(body, {.margins = margins});
+  const Contact* const contact = world.detect().find_contact(body, floor);
+  EXPECT_EQ(contact->points().size(), mesh.positions(2, 0) < 0.5 ? 1u : 0u);
+}
+
 // A feature adds the largest of its vertices.
 TEST(RestOffsets, OfVerticesDecideWhatTouches) {
   int touching = 0, apart = 0;
