@@ -486,7 +486,7 @@ TEST(DetectMotion, OnAPartOfAWayIsAsWithoutTheWholeOne) {
 
 // What changes besides positions is seen by the next call on the same way.
 TEST(DetectMotion, OnAPartOfAWayGoesByTheSettingsOfNow) {
-  const Couple couple = couples()[1];
+  const Couple couple = couples()[2];
   using Change = std::function<void(CoupleOnItsWay&)>;
   const std::vector<Change> changes{
       [](CoupleOnItsWay& two) { two.world.set_margin(two.a, 0.1); },
