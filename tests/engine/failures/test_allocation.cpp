@@ -226,6 +226,32 @@ TEST(Allocation, ThatFailsWhilePatchesAreFoundLeavesAUsableWorld) {
   }
 }
 
+// What is left out below the body stays what it was where a call that sets it fails.
+TEST(Allocation, ThatFailsWhileFiltersAreSetChangesNothing) {
+  const Mesh mesh = icosphere(1);
+  const std::vector<std::uint32_t> labels(static_cast<std::size_t>(mesh.facet_count()), 1);
+  const std::vector<double> margins(static_cast<std::size_t>(mesh.vertex_count()), 0.0);
+  PlainWorld world({.threads = 1});
+  const std::vector<BodyId> ids = add_bodies(world, std::array{mesh, translated(mesh, {0.5, 0.0, 0.0})});
+  world.set_excluded_labels({ids[0], 1, ids[0], 2}, true);
+  const std::array<std::function<void()>, 3> calls{
+      [&] { world.set_feature_settings(ids[0], {.facet_labels = labels, .margins = margins}); },
+      [&] { world.set_self_contact_filter(ids[0], {.rings = 2, .rest_distance = 0.1}); },
+      [&] {
+        world.set_excluded_labels({ids[1], 3, ids[0], 1}, true);
+      }};
+  for (const auto& call : calls) {
+    const std::vector<std::byte> before = world.save();
+    int failures = 0;
+    while (call_short_of_memory(failures, false, call) == Outcome::threw) {
+      ASSERT_LT(++failures, 1000);
+      ASSERT_EQ(world.save(), before) << "allocation " << failures;
+    }
+    EXPECT_GT(failures, 0);
+    EXPECT_NE(world.save(), before);
+  }
+}
+
 // What a player could not do for want of memory it does when it is asked again.
 TEST(Allocation, ThatFailsInAPlayerIsMadeUpFor) {
   std::ostringstream out;
