@@ -73,7 +73,10 @@ void WorldTuning::set(const World& world, const base::Tuning& tuning) { world.im
 
 const Settings& World::settings() const { return implementation().settings; }
 
-WorldParts::WorldParts(World& world) : bodies_(world.implementation().bodies), step_(world.implementation().step) {}
+WorldParts::WorldParts(World& world)
+    : bodies_(world.implementation().bodies),
+      step_(world.implementation().step),
+      motion_(world.implementation().motion) {}
 
 void World::set_settings(const Settings& settings) {
   const base::FloatingPointMode mode;

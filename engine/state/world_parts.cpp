@@ -6,6 +6,7 @@
 
 #include "broadphase/sweep_and_prune.h"
 #include "engine/base/floating_point_mode.h"
+#include "engine/motion_stage.h"
 #include "engine/state/archives.h"
 #include "engine/state/pair_state.h"
 #include "engine/state/world_state.h"
@@ -333,18 +334,32 @@ StateBytes WorldParts::rest(BodyId body) const {
   return std::move(writer.bytes());
 }
 
+void WorldParts::forget_ways() {
+  if (motion_ != nullptr) motion_->forget_ways();
+}
+
 BodyId WorldParts::put(std::span<const std::byte> shape, std::span<const std::byte> rest, bool is_copy) {
   const base::FloatingPointMode mode;
+  forget_ways();
   StateWriter writer;
   StateFields::join(shape, rest, writer);
   StateReader joined(writer.bytes());
   return StateFields::put_body(joined, bodies_, is_copy);
 }
 
-void WorldParts::take(std::span<const BodyId> bodies) { StateFields::take_bodies(bodies, bodies_, step_); }
-void WorldParts::remove_copy(BodyId body) { StateFields::remove_copy(body, bodies_); }
+void WorldParts::take(std::span<const BodyId> bodies) {
+  forget_ways();
+  StateFields::take_bodies(bodies, bodies_, step_);
+}
+void WorldParts::remove_copy(BodyId body) {
+  forget_ways();
+  StateFields::remove_copy(body, bodies_);
+}
 void WorldParts::set_birth(BodyId body, std::uint64_t birth) { StateFields::set_birth(body, birth, bodies_); }
-void WorldParts::mark_moved(BodyId body, bool is_on_its_way) { StateFields::mark_moved(body, is_on_its_way, bodies_); }
+void WorldParts::mark_moved(BodyId body, bool is_on_its_way) {
+  forget_ways();
+  StateFields::mark_moved(body, is_on_its_way, bodies_);
+}
 void WorldParts::exclude(BodyId a, BodyId b, bool excluded) { StateFields::exclude(a, b, excluded, bodies_); }
 
 std::vector<SavedPair> WorldParts::pairs_of(std::span<const BodyId> bodies) const {
@@ -370,6 +385,7 @@ void WorldParts::put_self(BodyId body, std::span<const std::byte> bytes) {
 void WorldParts::settle() { StateFields::settle(bodies_, step_); }
 
 void WorldParts::forget_step() {
+  forget_ways();
   step_.forget();
   bodies_.mark_all_changed();
 }

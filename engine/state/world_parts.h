@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,7 @@
 namespace tact {
 
 class Bodies;
+class MotionStage;
 class Step;
 using StateBytes = std::vector<std::byte>;
 
@@ -123,8 +125,12 @@ class TACT_API WorldParts {
                                                         std::span<const broadphase::Filter> filters, int threads);
 
  private:
+  // Bodies come and go, or begin elsewhere, by other ways than those of the world's own functions.
+  void forget_ways();
+
   Bodies& bodies_;
   Step& step_;
+  std::unique_ptr<MotionStage>& motion_;
 };
 
 }  // namespace tact
