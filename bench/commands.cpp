@@ -16,6 +16,7 @@
 #include "bench/scaling/rigid.h"
 #include "bench/scaling/scaling.h"
 #include "bench/scaling/self.h"
+#include "bench/scaling/solver.h"
 #include "bench/scaling/stages.h"
 #include "bench/stability/stability.h"
 
@@ -32,6 +33,7 @@ std::vector<Command> commands() {
       {"motion", "what meets between two steps, against the inclusion-based method", run_motion, true},
       {"points", "contact points, against the same step without, and with Embree's and CGAL's boxes", run_points, true},
       {"self", "bodies against themselves, through tact, Embree and CGAL", run_self, true},
+      {"solver", "substeps of solvers: margins, points and self-contact, against the same without", run_solver, true},
       {"rigid", "rigid bodies moved by poses, against the same moved by their vertices", run_rigid, true},
       {"queries", "rays and nearest points of a moving surface, through tact, Embree and FCL", run_queries, true},
       {"grains", "grains and ropes on a plane, ever more of them", run_grains},

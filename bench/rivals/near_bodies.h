@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "bench/rivals/near_distances.h"
 #include "bench/rivals/near_points.h"
 #include "broadphase/sweep_and_prune.h"
-#include "narrowphase/distance/edge_edge.h"
-#include "narrowphase/distance/facet_border.h"
-#include "narrowphase/distance/vertex_facet.h"
+#include "narrowphase/contact_points/own_inside.h"
+#include "narrowphase/distance/surface_distance.h"
 #include "narrowphase/mesh/features.h"
 #include "narrowphase/mesh/refit.h"
 
@@ -23,8 +23,6 @@ using base::Box;
 using base::Vec3;
 using narrowphase::ClusteredMesh;
 using narrowphase::Features;
-using narrowphase::Nearest;
-using narrowphase::ScaledVertices;
 
 // A body: what does not change, the boxes of its facets, grown by its margin, and where they are.
 struct NearBody {
@@ -33,6 +31,7 @@ struct NearBody {
              {body.facets.data(), static_cast<std::size_t>(body.facets.size())}),
         features(mesh),
         margin(margin_of_it),
+        is_solid(body.surface == Surface::closed && features.is_closed()),
         boxes(static_cast<std::size_t>(mesh.facet_count())) {
     find_boxes();
   }
@@ -56,19 +55,24 @@ struct NearBody {
   ClusteredMesh mesh;
   Features features;
   double margin;
+  bool is_solid;  // no point leads through its own inside
   std::vector<Box> boxes;
   Box all;
 };
 
-// The points of a pair of facets: those of the vertices and edges that either has first.
+// The points of a pair of facets: those of the vertices and edges that either has first. Of a body with itself features
+// that share a vertex have none, nor do those that are too near along the surface, as tact leaves them out.
 class FacetPoints {
  public:
   FacetPoints(const NearBody& a, const NearBody& b, int body_a, int body_b, std::vector<NearPoint>& found)
       : a_(a), b_(b), body_a_(body_a), body_b_(body_b), reach_(a.margin + b.margin), found_(found) {}
 
+  /// Of one body each two facets once, and each with itself.
   void find(int facet_a, int facet_b) {
     from_vertices(a_, facet_a, b_, facet_b, FeaturePair::vertex_facet);
-    from_vertices(b_, facet_b, a_, facet_a, FeaturePair::facet_vertex);
+    if (!same()) from_vertices(b_, facet_b, a_, facet_a, FeaturePair::facet_vertex);
+    if (same() && facet_a != facet_b) from_vertices(b_, facet_b, a_, facet_a, FeaturePair::vertex_facet);
+    if (same() && facet_a == facet_b) return;  // its edges share vertices
     for (int i = 0; i < 3; ++i) {
       const int e = own_edge(a_, facet_a, i);
       if (e < 0) continue;
@@ -84,6 +88,20 @@ class FacetPoints {
     const int edge = body.features.facet_edge(facet, k);
     return edge >= 0 && body.features.first_facet_of_edge(edge) == facet ? edge : -1;
   }
+  bool same() const { return &a_ == &b_; }
+  // Whether a way between two features leads through the inside of a body, or back to the same place of a surface.
+  bool is_none(const NearBody& one, std::span<const int> of_one, const NearBody& other, std::span<const int> of_other,
+               const Nearest& nearest, Vec3 from) {
+    const auto leads_inside = [&](const NearBody& body, std::span<const int> feature, Vec3 way) {
+      return body.is_solid && narrowphase::leads_inside({&body.mesh, &body.features}, feature, way);
+    };
+    if (nearest.distance > 0.0 &&
+        (leads_inside(one, of_one, nearest.normal) || leads_inside(other, of_other, -nearest.normal)))
+      return true;
+    return same() &&
+           narrowphase::too_near_along([&](int v) { return a_.mesh.position(v); }, a_.features, reach_, {of_one, from},
+                                       {of_other, from + nearest.distance * nearest.normal}, ways_);
+  }
   void from_vertices(const NearBody& own, int own_facet, const NearBody& other, int facet, FeaturePair kind) {
     const narrowphase::Corners corners = other.mesh.corners(facet);
     const narrowphase::Triangle t = other.mesh.triangle(facet);
@@ -92,7 +110,8 @@ class FacetPoints {
       if (own.features.first_facet_of_vertex(vertex) != own_facet) continue;
       const Vec3 v = own.mesh.position(vertex);
       const auto add = [&](const std::optional<Nearest>& nearest, std::span<const int> feature) {
-        if (!nearest) return;
+        if (!nearest || (same() && std::ranges::find(feature, vertex) != feature.end())) return;
+        if (is_none(own, {&vertex, 1}, other, feature, *nearest, v)) return;
         NearPoint point{body_a_, body_b_, kind, {}, {}, nearest->distance};
         const std::array<int, 3> one = narrowphase::source_vertices(own.mesh, {&vertex, 1});
         const std::array<int, 3> two = narrowphase::source_vertices(other.mesh, feature);
@@ -100,33 +119,44 @@ class FacetPoints {
         point.b = kind == FeaturePair::vertex_facet ? two : one;
         found_.push_back(point);
       };
-      add(narrowphase::nearest_inside_facet(v, corner, reach_), corners);
+      add(plain_nearest_inside_facet(v, corner, reach_), corners);
       for (int k = 0; k < 3; ++k) {
         if (const int edge = own_edge(other, facet, k); edge >= 0) {
           const auto ends = other.features.edge(edge);
-          add(narrowphase::nearest_inside_edge(v, other.mesh.position(ends[0]), other.mesh.position(ends[1]),
-                                               other.around(other.features.opposite(edge)), reach_),
+          add(plain_nearest_inside_edge(v, other.mesh.position(ends[0]), other.mesh.position(ends[1]),
+                                        other.around(other.features.opposite(edge)), reach_),
               ends);
         }
         const int w = corners[k];
         if (other.features.first_facet_of_vertex(w) == facet)
-          add(narrowphase::nearest_in_vertex(v, corner[k], other.around(other.features.neighbors(w)), reach_), {&w, 1});
+          add(plain_nearest_in_vertex(v, corner[k], other.around(other.features.neighbors(w)), reach_), {&w, 1});
       }
     }
   }
   void between(int e, int f) {
     const auto ends_e = a_.features.edge(e), ends_f = b_.features.edge(f);
-    const auto nearest = narrowphase::nearest_between_edges(
-        {a_.mesh.position(ends_e[0]), a_.mesh.position(ends_e[1])}, a_.around(a_.features.opposite(e)),
-        {b_.mesh.position(ends_f[0]), b_.mesh.position(ends_f[1])}, b_.around(b_.features.opposite(f)), reach_);
-    if (nearest)
-      found_.push_back({body_a_, body_b_, FeaturePair::edge_edge, narrowphase::source_vertices(a_.mesh, ends_e),
-                        narrowphase::source_vertices(b_.mesh, ends_f), nearest->distance});
+    if (same() && std::ranges::find_first_of(ends_e, ends_f) != ends_e.end()) return;
+    const EdgeEnds at_e{a_.mesh.position(ends_e[0]), a_.mesh.position(ends_e[1])};
+    const auto nearest = plain_nearest_between_edges(at_e, a_.around(a_.features.opposite(e)),
+                                                     {b_.mesh.position(ends_f[0]), b_.mesh.position(ends_f[1])},
+                                                     b_.around(b_.features.opposite(f)), reach_);
+    if (!nearest) return;
+    const Vec3 on_e = nearest->first[0] * at_e.p + nearest->first[1] * at_e.q;
+    if (is_none(a_, ends_e, b_, ends_f, *nearest, on_e)) return;
+    NearPoint point{body_a_,
+                    body_b_,
+                    FeaturePair::edge_edge,
+                    narrowphase::source_vertices(a_.mesh, ends_e),
+                    narrowphase::source_vertices(b_.mesh, ends_f),
+                    nearest->distance};
+    if (same() && point.b < point.a) std::swap(point.a, point.b);
+    found_.push_back(point);
   }
 
   const NearBody &a_, &b_;
   int body_a_, body_b_;
   double reach_;
+  narrowphase::SurfaceWays ways_;
   std::vector<NearPoint>& found_;
 };
 
@@ -155,6 +185,11 @@ class NearBase : public NearRival {
     for (const auto& [a, b] : sweep_.update(boxes_, filters_, all_, 1)) {
       FacetPoints points(*bodies_[a], *bodies_[b], static_cast<int>(a), static_cast<int>(b), found_);
       propose(a, b, points);
+    }
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+      if (!workload_.bodies[k].self_contact) continue;
+      FacetPoints points(*bodies_[k], *bodies_[k], static_cast<int>(k), static_cast<int>(k), found_);
+      propose(k, k, points);
     }
   }
 

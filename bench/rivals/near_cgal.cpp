@@ -30,7 +30,8 @@ class CgalNear : public NearBase {
     gather(*bodies_[b], common, first_of_b, facets_b_, pointers_b_);
     CGAL::box_intersection_d(pointers_a_.begin(), pointers_a_.end(), pointers_b_.begin(), pointers_b_.end(),
                              [&](const CgalBox* p, const CgalBox* q) {
-                               points.find(static_cast<int>(p->number), static_cast<int>(q->number - first_of_b));
+                               const auto i = static_cast<int>(p->number), k = static_cast<int>(q->number - first_of_b);
+                               if (a != b || i <= k) points.find(i, k);
                              });
   }
 

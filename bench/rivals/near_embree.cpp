@@ -81,12 +81,14 @@ class EmbreeNear : public NearBase {
       FacetPoints& points;
       bool* meet;
     } query{*bodies_[a], *bodies_[b], points, meet};
+    for (int f = 0; a == b && f < query.a.mesh.facet_count(); ++f) points.find(f, f);
     rtcCollide(
         scenes_[a], scenes_[b],
         [](void* data, RTCCollision* collisions, unsigned count) {
           const Query& q = *static_cast<const Query*>(data);
           for (unsigned k = 0; k < count; ++k) {
             const unsigned i = collisions[k].primID0, j = collisions[k].primID1;
+            if (&q.a == &q.b && i >= j) continue;  // of one scene both orders come
             if (!base::overlaps(q.a.boxes[i], q.b.boxes[j])) continue;
             const auto f = static_cast<int>(i), g = static_cast<int>(j);
             q.points.find(f, g);

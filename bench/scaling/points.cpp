@@ -69,35 +69,6 @@ std::size_t count_points(const Report& report) {
   return count;
 }
 
-// Of bodies that do not cross, the points are the rival's. Where they cross, tact has signs besides: those of its
-// points that have not crossed are the rival's.
-void check_against_rival(const Report& report, const std::vector<NearPoint>& rival, const std::string& name) {
-  std::vector<NearPoint> own;
-  std::set<std::pair<int, int>> crossing;
-  for (const Contact& contact : report.contacts()) {
-    const std::pair bodies(static_cast<int>(contact.a.index), static_cast<int>(contact.b.index));
-    if (!contact.facet_pairs().empty() || contact.containment != Containment::none) crossing.insert(bodies);
-    for (const ContactPoint& point : contact.points()) {
-      if (point.gap > 0.0)
-        own.push_back({bodies.first, bodies.second, point.kind, point.a_vertices, point.b_vertices, point.gap});
-    }
-  }
-  std::ranges::sort(own, {}, &NearPoint::key);
-  std::size_t place = 0;
-  for (const NearPoint& point : rival) {
-    if (place < own.size() && own[place].key() == point.key()) {
-      if (std::abs(own[place].gap - point.gap) > 1e-9)
-        throw std::runtime_error(fmt::format("points of {}: gap {} instead of {}", name, own[place].gap, point.gap));
-      ++place;
-    } else if (point.gap > 1e-12 && !crossing.contains({point.body_a, point.body_b})) {
-      throw std::runtime_error(
-          fmt::format("points of {}: bodies {} and {} lack one of the rival's", name, point.body_a, point.body_b));
-    }
-  }
-  if (place != own.size())
-    throw std::runtime_error(fmt::format("points of {}: {} are none of the rival's", name, own.size() - place));
-}
-
 // The vertices that are inside a closed body are the rival's. tact's way out leads to the side that the vertex came
 // from, so it is no shorter than the distance to the surface. What lies on the surface but for rounding may be either.
 void check_signs(const Report& report, const Workload& workload, const std::vector<CrossedVertex>& rival,
@@ -196,6 +167,38 @@ PointTimes measure(const Workload& workload, const std::string& name, bool quick
 }
 
 }  // namespace
+
+// Of bodies that do not cross, the points are the rival's. Where they cross, tact has signs besides: those of its
+// points that have not crossed are the rival's.
+void check_against_rival(const Report& report, const std::vector<NearPoint>& rival, const std::string& name) {
+  std::vector<NearPoint> own;
+  std::set<std::pair<int, int>> crossing;
+  for (const Contact& contact : report.contacts()) {
+    const std::pair bodies(static_cast<int>(contact.a.index), static_cast<int>(contact.b.index));
+    if (!contact.facet_pairs().empty() || contact.containment != Containment::none) crossing.insert(bodies);
+    for (const ContactPoint& point : contact.points()) {
+      if (point.gap > 0.0)
+        own.push_back({bodies.first, bodies.second, point.kind, point.a_vertices, point.b_vertices, point.gap});
+    }
+  }
+  std::ranges::sort(own, {}, &NearPoint::key);
+  const auto fail = [&](const NearPoint& point, const char* what) {
+    throw std::runtime_error(fmt::format("points of {}: bodies {} and {}, kind {}, vertices {} and {}, gap {}: {}",
+                                         name, point.body_a, point.body_b, static_cast<int>(point.kind), point.a[0],
+                                         point.b[0], point.gap, what));
+  };
+  std::size_t place = 0;
+  for (const NearPoint& point : rival) {
+    if (place < own.size() && own[place].key() < point.key()) fail(own[place], "none of the rival's");
+    if (place < own.size() && own[place].key() == point.key()) {
+      if (std::abs(own[place].gap - point.gap) > 1e-9) fail(point, "the gap is another one");
+      ++place;
+    } else if (point.gap > 1e-12 && !crossing.contains({point.body_a, point.body_b})) {
+      fail(point, "the rival's alone");
+    }
+  }
+  if (place != own.size()) fail(own[place], "none of the rival's");
+}
 
 int run_points(const BenchOptions& options) {
   fmt::print(

@@ -39,7 +39,7 @@ Workload rolled_cloth(int cells, int frames) {
   return workload;
 }
 
-Workload toy_figure(int frames) {
+Workload toy_figure(int frames, double part_of_way) {
   const std::filesystem::path folder = "../shared/data/seq_toy_poses";
   if (!std::filesystem::is_directory(folder)) return {};
   const scenes::BodyFrames poses = scenes::read_bodies({folder}).front();
@@ -47,7 +47,7 @@ Workload toy_figure(int frames) {
   const auto last = static_cast<int>(poses.positions.size()) - 1;
   for (int frame = 0; frame < frames; ++frame) {
     const int half = frames / 2, there = frame <= half ? frame : frames - frame;
-    const double at = static_cast<double>(last) * there / half;
+    const double at = part_of_way * static_cast<double>(last) * there / half;
     const int pose = std::min(static_cast<int>(at), last - 1);
     const double part = at - pose;
     workload.bodies[0].frames.push_back((1.0 - part) * poses.positions[pose] +

@@ -19,6 +19,7 @@ struct WorkloadBody {
   std::vector<Eigen::Matrix3Xd> frames = {};  // 3 x V metres, one a frame; a single one: the body is fixed
   std::uint32_t mask = 0xffffffffu;           // see BodyDefinition
   double margin = 0.0;                        // that a scene gave it, metres; 0: it has none of its own
+  bool self_contact = false;                  // it is held against itself, by those who do that
 
   bool fixed() const { return frames.size() == 1; }
   const Eigen::Matrix3Xd& positions(int frame) const { return frames[fixed() ? 0 : static_cast<std::size_t>(frame)]; }
@@ -112,8 +113,18 @@ Workload cloth_alone(int cells, int frames);
 // turn. Waves in it make each turn cross the next.
 Workload rolled_cloth(int cells, int frames);
 
-// The soft toy of ../shared/data/seq_toy_poses, 13,334 facets, from pose to pose and back; none where it is missing.
-Workload toy_figure(int frames);
+// The soft toy of ../shared/data/seq_toy_poses, 13,334 facets, from pose to pose and back, or a part of the way;
+// none where it is missing.
+Workload toy_figure(int frames, double part_of_way = 1.0);
+
+// What solvers ask in small substeps: with margins of their own, and held against themselves.
+
+// A sheet of side x side vertices, 1.6 m wide, after so many substeps of 1/720 s of its fall onto a ball, and `frames`
+// more, there and back.
+Workload cloth_on_ball(int side, int settled, int frames);
+
+// `count` sheets of side x side vertices, 1 m wide, 8 mm apart, in a wave that hardly moves, with margins of 5 mm.
+Workload waving_sheets(int count, int side, int frames);
 
 // What follows was made after the engine, of other kinds of bodies: no constant was chosen by it.
 
