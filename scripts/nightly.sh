@@ -10,7 +10,7 @@ scripts/setup.sh program tests bench sanitizers blender mpi notebook paraview
 scripts/build.sh release
 TACT_LONG_CGAL_PAIRS=100000000 TACT_LONG_RATIONAL_PAIRS=1000000 build/release/tests/long/test_predicates_long
 TACT_LONG_HULL_PAIRS=1000000 build/release/tests/long/test_directions_long
-TACT_LONG_MOTION_QUERIES=10000000 TACT_LONG_REACH_QUERIES=1000000 TACT_LONG_SEED=$(date +%Y%m%d) build/release/tests/long/test_motion_long
+TACT_LONG_MOTION_QUERIES=10000000 TACT_LONG_REACH_QUERIES=1000000 TACT_LONG_WAYS=5000 TACT_LONG_SEED=$(date +%Y%m%d) build/release/tests/long/test_motion_long
 TACT_LONG_QUERIES=1000000 build/release/tests/long/test_queries_long
 cmake --build build/release --target test_body_queries_long
 TACT_LONG_OVERLAPS=2000 TACT_LONG_TURNS=1000000 build/release/tests/long/test_body_queries_long
