@@ -151,8 +151,8 @@ inline VectorPack corners(const double (&at)[3][kRankedVertices], const std::uin
   return {gather(at[0], corner), gather(at[1], corner), gather(at[2], corner)};
 }
 
-// From the middle of a ball all facets are nearly as near as the nearest one, and most of their planes are not: those of
-// the listed facets whose planes are are left, with their distances.
+// From the middle of a ball all facets are nearly as near as the nearest one, and most of their planes are not. Keeps
+// those of the listed facets whose planes are as near, with their distances.
 void rank_many(const double (&at)[3][kRankedVertices], const std::uint8_t (&corner)[3][2 * FacetDistances::kCapacity],
                int vertex_count, Pack beyond, FacetDistances* facets) {
   Pack farthest = spread(0.0);
