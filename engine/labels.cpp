@@ -27,7 +27,7 @@ int first_facet(const Body& body, const std::array<int, 3>& vertices) {
   if (body.features == nullptr) {
     for (int facet = 0; facet < mesh.facet_count(); ++facet) look_at(facet);
   } else if (const int vertex = body.features->vertex_of_source(vertices[0]); vertex >= 0) {
-    std::ranges::for_each(body.features->facets_at(vertex), look_at);
+    for (const int facet : body.features->facets_at(vertex)) look_at(facet);
   }
   return first;
 }

@@ -23,7 +23,7 @@ class EdgeTable {
     int room = 0;
     for (std::size_t v = 0; v < sides_.size(); ++v) end_[v] = std::exchange(room, room + sides_[v]);
     begin_ = end_;
-    entries_ = std::make_unique_for_overwrite<Entry[]>(static_cast<std::size_t>(room));
+    entries_.reset(new Entry[static_cast<std::size_t>(room)]);  // each is set before it is read
   }
 
   // Of two vertices; count() before, if there was none.

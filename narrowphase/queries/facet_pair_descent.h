@@ -96,9 +96,9 @@ class FacetPairDescent {
       const int a_of_p = at(facets_a_, p.a).source, a_of_q = at(facets_a_, q.a).source;
       return a_of_p != a_of_q ? a_of_p > a_of_q : at(facets_b_, p.b).source > at(facets_b_, q.b).source;
     };
-    std::ranges::make_heap(facets_, is_later);
+    std::make_heap(facets_.begin(), facets_.end(), is_later);
     for (; !facets_.empty(); facets_.pop_back()) {
-      std::ranges::pop_heap(facets_, is_later);
+      std::pop_heap(facets_.begin(), facets_.end(), is_later);
       const Ranked& pair = facets_.back();
       const BoxedFacet &a = at(facets_a_, pair.a), &b = at(facets_b_, pair.b);
       if (!search_.wants(pair.rank, -1, -1)) return;

@@ -60,7 +60,7 @@ template <class Item, class Value>
 std::span<const Item> those_with(const std::vector<Item>& sorted, const Value& value, Value Item::*member) {
   const auto begin = std::ranges::lower_bound(sorted, value, {}, member),
              end = std::ranges::upper_bound(sorted, value, {}, member);
-  return {begin, end};
+  return {sorted.data() + (begin - sorted.begin()), static_cast<std::size_t>(end - begin)};
 }
 
 NumberedTriangle numbered(const ClusteredMesh& mesh, int facet) {
