@@ -272,6 +272,7 @@ void MotionStage::keep_ways(const Call& call) {
   for (const Work::Shared& shared : work_.items()) {
     const Passing& one = passing_[shared.item];
     if (body_and_plane(bodies, one.a, one.b)) continue;
+    if (!bodies.seen(one.a) || !bodies.seen(one.b)) continue;  // it may be put elsewhere and still have no way
     for (const Work::Range& range : work_.ranges(shared)) known_.add(range.found.kept);
     const double first = wanted == Impacts::all ? 1.0 : first_[wanted == Impacts::first ? 0 : shared.item].load();
     const std::span<const narrowphase::ClusterPair> opened = clusters_of(one);

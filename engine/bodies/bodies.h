@@ -147,6 +147,8 @@ class Bodies {
   }
   // Whether a body has other positions than in the last step; and the body with its way since.
   bool on_its_way(std::uint32_t slot) const { return slots_[slot].begin != Begin::here; }
+  // Whether a step has seen it. Until then it begins where it is, wherever it is put.
+  bool seen(std::uint32_t slot) const { return slots_[slot].seen; }
   narrowphase::Placement begin_of(std::uint32_t slot) const;
   narrowphase::MovingMesh moving(std::uint32_t slot) const;
   // Makes the features that are missing of some bodies, which may be named more than once, in parallel.

@@ -96,6 +96,9 @@ def test_two_kept_reports_in_turns():
         contact.depth
     with pytest.raises(tact.Error, match="kept"):
         again.keep(world.detect())
+    live = world.detect()
+    with pytest.raises(tact.Error, match="kept"):  # of the same world, too: it would be no copy
+        live.keep(live)
 
 
 class Lines:

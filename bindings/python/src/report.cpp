@@ -382,6 +382,7 @@ py::list candidates_of(const ReportHandle& report) {
 }
 
 ReportHandle keep(const ReportHandle& report, const std::optional<ReportHandle>& into) {
+  if (into) into->world()->check_is_copy();
   if (into && into->world() == report.world()) {
     report.held();
     return report;

@@ -49,12 +49,15 @@ class SharedWorld : public std::enable_shared_from_this<SharedWorld> {
   /// Copies another report; what was read of the last copy is stale. @throws Error wrong_order while another call reads
   /// or changes it, or if it holds no copy.
   const Report& keep(const Report& report) {
+    check_is_copy();
     use();
-    if (!kept_) throw Error(ErrorCode::wrong_order, "`into` is a report of a world, not one that was kept");
     next_report();
     const Busy busy(*this);
     without_lock([&] { kept_->keep(report); });
     return kept_->report();
+  }
+  void check_is_copy() const {
+    if (!kept_) throw Error(ErrorCode::wrong_order, "`into` is a report of a world, not one that was kept");
   }
   std::uint64_t last_report() const { return report_; }
 

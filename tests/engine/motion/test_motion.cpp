@@ -515,6 +515,32 @@ TEST(DetectMotion, OnAPartOfAWayGoesByTheSettingsOfNow) {
   }
 }
 
+// A body that no step has seen has no way, wherever it is put: what was found of it at one place tells nothing of
+// another.
+TEST(DetectMotion, OnAPartOfAWayBodiesThatNoStepHasSeenMayBeAnywhere) {
+  constexpr double kBeside =
+      2.09;  // metres along x and y: the wall's corner is in the box of the ball's way, and not met
+  for (const Motion motion : {Motion::deformable, Motion::rigid}) {
+    BallAndWall scene;
+    scene.world.remove_body(scene.standing);
+    scene.world.detect();
+    const BodyId late = scene.world.add_body(
+        {.positions = scene.wall.positions, .facets = scene.wall.facets, .surface = Surface::sheet, .motion = motion});
+    const auto put_late = [&](double beside) {
+      if (motion == Motion::rigid) {
+        scene.world.set_pose(late, Eigen::Matrix3d::Identity(), {beside, beside, 0.0});
+      } else {
+        scene.world.set_positions(late, translated(scene.wall, {beside, beside, 0.0}).positions);
+      }
+    };
+    put_late(kBeside);
+    scene.put(-1.0);
+    EXPECT_TRUE(scene.world.detect_motion().impacts().empty());
+    put_late(0.0);
+    EXPECT_FALSE(scene.world.detect_motion().impacts().empty()) << static_cast<int>(motion);
+  }
+}
+
 TEST(DetectMotion, SteadyStepsAllocateNothing) {
   const Couple couple = couples()[0];
   tact::World world({.threads = 1});
