@@ -1,6 +1,7 @@
 // What World::check_surface() finds of a body's surface.
 #pragma once
 
+#include <tact/error.h>
 #include <tact/facet_pair.h>
 
 #include <array>
@@ -30,9 +31,9 @@ struct SurfaceCheck {
   std::vector<int> unused_vertices;                   ///< vertices of no facet, edge or point
 
   /// Whether it bounds a solid: every component is closed, and none is inside out.
-  bool is_solid() const;
+  TACT_API bool is_solid() const;
   /// Whether every list of faults is empty; borders are none, nor are unused vertices.
-  bool is_clean() const;
+  TACT_API bool is_clean() const;
 };
 
 }  // namespace tact

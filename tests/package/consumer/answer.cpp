@@ -38,6 +38,8 @@ int main() {
   for (int body = 0; body < kBodies; ++body) {
     bodies.push_back(world.add_body({.positions = box_at_step(body, 0), .facets = facets}));
   }
+  const tact::SurfaceCheck surface = world.check_surface(bodies[0]);
+  if (!surface.is_solid() || !surface.is_clean()) return 1;
   for (int step = 1; step <= 10; ++step) {
     for (int body = 0; body < kBodies; ++body) world.set_positions(bodies[body], box_at_step(body, step));
     const tact::Report& report = world.detect();
