@@ -17,6 +17,7 @@ Installs the Debian packages that are missing. The groups:
   paraview    ParaView, for the filter and its tests: bindings/paraview
   mpi         worlds over many ranks: tact::mpi, which is built where these are
   blender     Blender, for the add-on and its tests: bindings/blender
+  packages    what makes Debian packages, with library, program, python, mpi: packaging/README.md
   bullet      the example of Bullet's soft bodies
   docs        the manual: scripts/docs.sh
   viewer      the page of `tact view` from its sources: scripts/viewer.sh
@@ -40,6 +41,7 @@ packages_of() {
     blender) echo blender python3-numpy python3-pytest xvfb xauth ;;
     notebook) echo jupyter-nbconvert python3-nbclient python3-nbformat python3-ipykernel python3-meshio python3-h5py python3-matplotlib python3-tqdm ;;
     paraview) echo paraview python3-paraview python3-numpy python3-pytest python3-meshio ;;
+    packages) echo dpkg-dev file ;;
     bullet) echo libbullet-dev pkg-config ;;
     docs) echo doxygen mkdocs mkdocs-material ;;
     bench) echo libcgal-dev libtbb-dev libfcl-dev libccd-dev libbullet-dev pkg-config gnuplot-nox ;;
