@@ -92,6 +92,8 @@ export interface BodyDefinition {
   externalId?: number | bigint;
   /** How far ahead of the surface contact points are seen, metres. */
   margin?: number;
+  /** What the body adds to the distance that surfaces keep, metres, 0 to the margin; by default the margin, whatever that becomes. */
+  restOffset?: number;
   selfContact?: boolean;
   group?: number;
   /** The order of bodies in all answers; by default the index. */
@@ -109,6 +111,46 @@ export interface PlaneDefinition {
   externalId?: number | bigint;
   key?: number | bigint;
   margin?: number;
+  restOffset?: number;
+}
+/** Settings of single vertices and facets of a body. An empty array, or none, sets nothing. */
+export interface FeatureSettings {
+  /** What each vertex adds to the distance that surfaces keep, metres, 0 to the margin. */
+  restOffsets?: ArrayLike<number>;
+  /** The program's own numbers. */
+  vertexLabels?: ArrayLike<number>;
+  facetLabels?: ArrayLike<number>;
+  /** The layers that each is on, and is tested against, a bit each; by default those of the body. */
+  vertexLayers?: ArrayLike<number>;
+  vertexMasks?: ArrayLike<number>;
+  facetLayers?: ArrayLike<number>;
+  facetMasks?: ArrayLike<number>;
+  /** How far ahead of each vertex contact points are seen, metres, 0 to the margin of the body. */
+  margins?: ArrayLike<number>;
+}
+/** The labels of a vertex, an edge or a facet; 0 where there is none. */
+export interface FeatureLabels {
+  vertices: number[];
+  /** That of the facet, or of the first facet that has the vertex or the edge. */
+  facet: number;
+}
+/** A label of one body and a label of another, or of the same. */
+export interface LabelPair {
+  a: Body;
+  labelA: number;
+  b: Body;
+  labelB: number;
+  /** By default "facet": facets, and the edges and vertices of no other; "vertex": vertices, and the edges and facets that have any of them. */
+  kind?: "facet" | "vertex";
+}
+/** Which features of a body that is tested against itself are too near to each other to be tested. */
+export interface SelfContactFilter {
+  /** Features with vertices at most so many edges apart are left out, 0 to 16; 0 adds none. */
+  rings?: number;
+  /** Features with vertices at most so far apart at rest are left out, metres; 0 leaves out none. */
+  restDistance?: number;
+  /** Where vertices are at rest; by default where they are when the filter is set. */
+  restPositions?: Positions;
 }
 export interface Pose {
   body: Body;
@@ -144,6 +186,61 @@ export interface ClosestPoint {
   distance: number;
   barycentric: number[];
 }
+/** Two bodies, and how far they may be apart. */
+export interface DistanceQuery {
+  a: Body;
+  b: Body;
+  /** Metres: what is farther is not looked for. */
+  within?: number;
+}
+export interface NearestBodiesQuery extends QueryFilter {
+  body: Body;
+  /** How many at most; by default 1. */
+  count?: number;
+  within?: number;
+}
+export type Containment = "none" | "a_in_b" | "b_in_a";
+/** The least distance of the surfaces of two bodies, and where it is. */
+export interface BodyDistance {
+  a: Body;
+  b: Body;
+  /** Metres; zero exactly where the surfaces share a point; Infinity where they are farther apart than requested. */
+  distance: number;
+  /** Negative where they are farther apart than requested. */
+  aFacet: number;
+  bFacet: number;
+  /** Weights of the corners; zero on a plane. */
+  aBarycentric: number[];
+  bBarycentric: number[];
+  /** Whether one lies wholly inside the other, whose surfaces are apart. */
+  containment: Containment;
+}
+/** A way of a body as a whole: it goes straight and turns at the same time, both evenly. */
+export interface Sweep extends QueryFilter {
+  body: Body;
+  /** How far it goes, metres. */
+  way?: ArrayLike<number>;
+  /** What it turns about, of any length but zero; by default z. */
+  axis?: ArrayLike<number>;
+  /** A point of the axis where the way begins, metres. */
+  center?: ArrayLike<number>;
+  /** Radians, counter-clockwise about `axis`. */
+  angle?: number;
+}
+export interface SweepHit {
+  /** The body that is met. */
+  body: Body;
+  /** Of the swept body. */
+  facet: number;
+  /** The facet of `body` that it meets. */
+  other: number;
+  /** The part of the way, 0 to 1, that is free: never later than the true one. */
+  fraction: number;
+  /** From `facet` to `other`; zero if they meet at once. */
+  normal: number[];
+  barycentric: number[];
+  otherBarycentric: number[];
+}
 export interface BoxQuery extends QueryFilter {
   lower: ArrayLike<number>;
   upper: ArrayLike<number>;
@@ -159,6 +256,7 @@ export interface SurfaceFault {
   second: number;
 }
 type Color = [number, number, number, number?];
+type DebugDrawOptions = Record<string, boolean | Color>;
 export interface DebugDrawer {
   line?(from: number[], to: number[], color: number[]): void;
   triangle?(p: number[], q: number[], r: number[], color: number[]): void;
@@ -184,8 +282,10 @@ export class World {
   setPositions(body: Body, positions: Positions): void;
   /** Copies new positions of many bodies, all or none. */
   setPositionsOfMany(updates: { body: Body; positions: Positions }[]): void;
-  /** Gives a body other vertices and facets; `vertexMap` tells of each new vertex which old one it was, or -1. */
-  setFacets(body: Body, positions: Positions, facets: Indices, vertexMap: ArrayLike<number>): void;
+  /** Gives a body other vertices, facets, edges and points; `vertexMap` tells of each new vertex which old one it was, or -1,
+   *  `facetMap` of each facet the old one whose label, layer and mask it has. */
+  setFacets(body: Body, positions: Positions, facets: Indices, vertexMap: ArrayLike<number>,
+    rest?: { edges?: Indices; points?: ArrayLike<number>; facetMap?: ArrayLike<number> }): void;
   /** Places a rigid body: a vertex added at p stands at rotation * p + translation. */
   setPose(body: Body, rotation: Numbers, translation: ArrayLike<number>): void;
   /** Places many rigid bodies, all or none. */
@@ -196,7 +296,15 @@ export class World {
   setExcluded(a: Body, b: Body, excluded: boolean): void;
   setMotion(body: Body, motion: Motion): void;
   setMargin(body: Body, margin: number): void;
+  /** Sets what a body adds to the distance that surfaces keep, metres; null takes the margin, whatever that becomes. */
+  setRestOffset(body: Body, restOffset: number | null): void;
+  /** Replaces the settings of single vertices and facets of a body. */
+  setFeatureSettings(body: Body, settings: FeatureSettings): void;
   setSelfContact(body: Body, wanted: boolean): void;
+  /** Sets which features of a body are too near to each other to be tested against each other; nothing: none. */
+  setSelfContactFilter(body: Body, filter?: SelfContactFilter): void;
+  /** Sets whether features of two labels are excluded from tests: a collar and what it is sewn to, say. */
+  setExcludedLabels(labels: LabelPair, excluded: boolean): void;
 
   /** Takes one step: finds the contacts of the current positions. */
   detect(): Report;
@@ -223,7 +331,16 @@ export class World {
   externalIdOf(body: Body): bigint;
   keyOf(body: Body): bigint;
   marginOf(body: Body): number;
+  /** The rest offset of a body, or its margin, metres. */
+  restOffsetOf(body: Body): number;
+  /** Copies of the settings of single vertices and facets; empty where they are not set. */
+  featureSettingsOf(body: Body): Record<"restOffsets" | "margins", Float64Array> &
+    Record<"vertexLabels" | "facetLabels" | "vertexLayers" | "vertexMasks" | "facetLayers" | "facetMasks", Uint32Array>;
+  /** The labels of a feature, whose three vertices are named as in a point, a pair or an impact; -1 fills up. */
+  labelsOf(body: Body, vertices: ArrayLike<number>): FeatureLabels;
   selfContactOf(body: Body): boolean;
+  selfContactFilterOf(body: Body): { rings: number; restDistance: number; restPositions: Float64Array };
+  areExcludedLabels(labels: LabelPair): boolean;
   isExcluded(a: Body, b: Body): boolean;
   vertexCountOf(body: Body): number;
   facetCountOf(body: Body): number;
@@ -247,14 +364,31 @@ export class World {
   /** Gives the nearest place of all surfaces to a point; null if none is within reach. */
   closestPoint(query: PointQuery): ClosestPoint | null;
   closestPoints(queries: PointQuery[]): (ClosestPoint | null)[];
+  /** Gives the nearest surface of closed bodies and planes; its distance is minus the depth where one contains the point. */
+  signedDistance(query: PointQuery): ClosestPoint | null;
+  signedDistances(queries: PointQuery[]): (ClosestPoint | null)[];
+  /** Gives the least distance of two bodies. */
+  distance(query: DistanceQuery): BodyDistance;
+  distances(queries: DistanceQuery[]): BodyDistance[];
+  /** Gives the bodies nearest to one, sorted by distance and body. */
+  nearestBodies(query: NearestBodiesQuery): BodyDistance[];
+  /** Gives what a body meets first when it is moved straight or turned, all others standing still; null if nothing. */
+  sweep(sweep: Sweep): SweepHit | null;
+  sweeps(sweeps: Sweep[]): (SweepHit | null)[];
+  /** Gives volume and surface of what two closed bodies that do not cross themselves have in common. */
+  overlap(a: Body, b: Body): { volume: number; area: number };
   /** Gives the facets that share a point with a box, decided exactly. */
   overlapBox(box: BoxQuery): FacetOfBody[];
   overlapBoxes(boxes: BoxQuery[]): FacetOfBody[][];
   /** Gives the closed bodies that contain a point or have it on their surface, decided exactly. */
   bodiesContaining(query: PointQuery): Body[];
   bodiesContainingEach(queries: PointQuery[]): Body[][];
-  /** Draws what the last step found; options are those of tact_c.h, colours [red, green, blue, alpha]. */
-  debugDraw(drawer: DebugDrawer, options?: Record<string, boolean | Color>): void;
+  /** Draws what the last step found; options are those of tact_debug_draw_options, such as facetPairs; colours [red, green, blue, alpha]. */
+  debugDraw(drawer: DebugDrawer, options?: DebugDrawOptions): void;
+  /** Draws distances: a line between the two places, and its length. Those farther apart than requested are left out. */
+  debugDrawDistances(distances: BodyDistance[], drawer: DebugDrawer, options?: DebugDrawOptions): void;
+  /** Draws each patch of the last step as a circle of its area across its normal, and forces as arrows. */
+  debugDrawSums(impulses: PointImpulse[], drawer: DebugDrawer, options?: DebugDrawOptions): void;
 }
 
 export interface ContactPoint {
@@ -324,7 +458,7 @@ export interface Contact {
   readonly zoneB: ZoneDisk;
   readonly keptFacetsA: number;
   readonly keptFacetsB: number;
-  readonly containment: "none" | "a_in_b" | "b_in_a";
+  readonly containment: Containment;
   readonly pointLimitReached: boolean;
   /** Facet of a, facet of b, for each pair that meets; sorted. */
   readonly facetPairs: Int32Array;
@@ -350,6 +484,16 @@ export interface PointArrays {
   patchIds: BigUint64Array;
   minima: Uint8Array;
 }
+/** The labels of what points name; 0 where there is none. */
+export interface PointLabelArrays {
+  count: number;
+  /** That of a's facet, or of the first that has the vertex or the edge. */
+  aFacets: Uint32Array;
+  bFacets: Uint32Array;
+  /** Those of a's vertices, 3 a point. */
+  aVertices: Uint32Array;
+  bVertices: Uint32Array;
+}
 export interface ReachPairArrays {
   count: number;
   bodies: Uint32Array;
@@ -368,6 +512,11 @@ export interface FacetPairArrays {
   contacts: Int32Array;
   facets: Int32Array;
 }
+/** What a solver did at a contact point: N s on b, or N. */
+export interface PointImpulse {
+  id: bigint;
+  impulse: ArrayLike<number>;
+}
 export interface ContactSum {
   kind: "contact" | "patch" | "body";
   a: Body;
@@ -384,13 +533,13 @@ export interface ContactSum {
   vertices: { body: Body; vertex: number }[];
 }
 
-/** What a step found. After the world's next step its functions throw "stale_report"; arrays stay yours. */
-export class Report {
-  private constructor();
+interface AnyReport {
   readonly world: World;
   /** Sorted by (a, b). */
   readonly contacts: Contact[];
   findContact(a: Body, b: Body): Contact | null;
+  /** The number of points of all contacts. */
+  readonly pointCount: number;
   /** The points of all contacts as arrays, or those arrays alone that are wanted. */
   points(): PointArrays;
   points<Name extends keyof PointArrays>(wanted: Name[]): Pick<PointArrays, Name | "count">;
@@ -408,10 +557,28 @@ export class Report {
   readonly trace: { kind: number; thread: number; beginNs: number; endNs: number; a: Body | null; b: Body | null; count: number }[];
   /** Made from every bit of the answer. */
   readonly hash: bigint;
-  /** Adds up the points of contacts, patches and bodies. */
-  sumContacts(impulses?: { id: bigint; impulse: ArrayLike<number> }[]): ContactSum[];
   /** The points for a solver; `firstRows`: by index of body the row of its first vertex. */
   stencils(firstRows: ArrayLike<number>): Stencils;
+  /** The same of the pairs within reach. */
+  stencilsWithinReach(firstRows: ArrayLike<number>): ReachStencils;
+  /** Copies the report, which then stays. The memory of `kept` is used again, and what it was is stale. */
+  keep(kept?: KeptReport | null): KeptReport;
+}
+/** What a step found. After the world's next step its functions throw "stale_report"; arrays stay yours. */
+export interface Report extends AnyReport {
+  /** The labels of what points() names, in its order. */
+  pointLabels(): PointLabelArrays;
+  pointLabels<Name extends keyof PointLabelArrays>(wanted: Name[]): Pick<PointLabelArrays, Name | "count">;
+  /** For each of points() 1 if it is a minimum also of joined surfaces, else 0. Joined are facets of one body, bodies that are
+   *  not tested against each other, and bodies on `layers`; `within` metres they are at one place. */
+  joinedMinima(joined?: { within?: number; layers?: number }): Uint8Array;
+  /** Adds up the points of contacts, patches and bodies. */
+  sumContacts(impulses?: PointImpulse[]): ContactSum[];
+}
+/** A report with memory of its own, which stays while the world goes on, changes or is destroyed. */
+export interface KeptReport extends AnyReport {
+  /** Frees its memory now. */
+  free(): void;
 }
 
 export interface Stencil {
@@ -429,17 +596,31 @@ export interface Terms {
   gradients: Float64Array;
   hessians?: Float64Array;
 }
-/** Contact points by rows of a solver's system: see the page "A solver on tact" of the manual. */
-export class Stencils {
-  private constructor();
+/** Contact points, or impacts, by rows of a solver's system: see the page "A solver on tact" of the manual. Values of vertices
+ *  are three numbers each: positions, ways, velocities. */
+export interface Stencils {
   readonly count: number;
   readonly all: Stencil[];
-  gaps(positions: Float64Array, hessians?: boolean): Terms;
-  barriers(positions: Float64Array, reach: number, options?: { rest?: Float64Array; hessians?: boolean }): Terms;
-  penalties(positions: Float64Array, reach: number, hessians?: boolean): Terms;
-  friction(moved: Float64Array, limits: ArrayLike<number>, smoothing: number, hessians?: boolean): Terms;
+  gaps(positions: Positions, hessians?: boolean): Terms;
+  barriers(positions: Positions, reach: number, options?: { rest?: Positions; hessians?: boolean }): Terms;
+  penalties(positions: Positions, reach: number, hessians?: boolean): Terms;
+  friction(moved: Positions, limits: ArrayLike<number>, smoothing: number, hessians?: boolean): Terms;
+  /** How fast the gap of each grows at such velocities; where they are ways, by how much it grows. */
+  gapRates(velocities: Positions): Float64Array;
   /** A colour for each; two of one colour share no vertex below `moving`. */
   colors(moving: number): Int32Array;
+  /** Draws the edges of both features, a line from a to b, and the normal; by default in the colour of points. */
+  debugDraw(positions: Positions, drawer: DebugDrawer, color?: Color): void;
+}
+/** Pairs within reach by rows of a solver's system. */
+export interface ReachStencils {
+  readonly count: number;
+  /** With all vertices of both features. */
+  readonly whole: Stencils;
+  /** With those of the closest features alone. */
+  readonly closest: Stencils;
+  /** The barriers of the distances below `reach`, as terms of `whole`. */
+  barriers(positions: Positions, reach: number, options?: { rest?: Positions; hessians?: boolean }): Terms;
 }
 
 export interface Impact {
@@ -463,8 +644,7 @@ export interface ImpactArrays {
   stops: Uint8Array;
 }
 /** What detectMotion() found; valid until it is called again. */
-export class MotionReport {
-  private constructor();
+export interface MotionReport {
   readonly world: World;
   /** The earliest time of an impact that stops, 0 to 1; Infinity if none does. */
   readonly firstTime: number;
@@ -474,6 +654,8 @@ export class MotionReport {
   readonly pairs: { a: Body; b: Body; firstTime: number; impacts: Impact[] }[];
   /** For each vertex how far along its way it may go, 0 to 1, if bounds were requested. */
   boundsOf(body: Body): Float64Array;
+  /** The impacts that stop, for a solver; `begin` and `end` are the vertices of all bodies before and after the way. */
+  stencils(firstRows: ArrayLike<number>, begin: Positions, end: Positions): Stencils;
   readonly statistics: Record<string, number>;
 }
 

@@ -23,7 +23,9 @@ export function typed(numbers, Kind, what) {
   const flat = Array.isArray(numbers) && Array.isArray(numbers[0]) ? numbers.flat() : numbers;
   if (flat == null || typeof flat.length !== "number") throw new TactError("invalid_argument", `${what} are no array of numbers`);
   const result = Kind.from(flat);
-  if (Kind === Int32Array && !result.every((number, i) => number === flat[i])) {
+  // The bits of a mask may come as JavaScript computes with them: ~0 is -1.
+  const isMask = (number, given) => Kind === Uint32Array && (number | 0) === given;
+  if (Kind !== Float64Array && !result.every((number, i) => number === flat[i] || isMask(number, flat[i]))) {
     throw new TactError("invalid_argument", `${what} are no whole numbers of 32 bits`);
   }
   return result;
@@ -44,9 +46,29 @@ export const positionsOf = (take, positions) => columns(take, positions, 3, Floa
 export const indicesOf = (take, indices, width, what) => columns(take, indices, width, Int32Array, what);
 export const makeColumns = (take, given) => make(take, "tact_columns", given);
 
+/** Numbers as an array of `Kind`: as they are if they are one, else copied. */
+function exactly(Kind, numbers, what) {
+  const array = typed(numbers, Kind, what);
+  return array instanceof Kind ? array : typed(Array.from(array), Kind, what);
+}
+/** Numbers of one kind in memory of the call, for a pointer and a count. */
+function placed(take, Kind, numbers, what) {
+  const array = exactly(Kind, numbers, what);
+  return { first: place(take, array), count: array.length };
+}
+export const int32s = (take, numbers, what) => placed(take, Int32Array, numbers, what);
+export const uint32s = (take, numbers, what) => placed(take, Uint32Array, numbers, what);
+export const float64s = (take, numbers, what) => placed(take, Float64Array, numbers, what);
+
 /** `count` doubles in memory of the call. */
 export function doubles(take, numbers, count, what) {
-  const array = numbers instanceof SharedArray ? numbers.array : Float64Array.from(numbers.flat?.() ?? numbers);
-  if (array.length !== count) throw new TactError("wrong_size", `${what} has ${array.length} numbers, not ${count}`);
-  return place(take, array);
+  const given = float64s(take, numbers, what);
+  if (given.count !== count) throw new TactError("wrong_size", `${what} has ${given.count} numbers, not ${count}`);
+  return given.first;
+}
+/** Three doubles a vertex in memory of the call. */
+export function verticesOf(take, numbers, what) {
+  const { first, count } = float64s(take, numbers, what);
+  if (count % 3 !== 0) throw new TactError("wrong_size", `${what} have ${count} numbers, which is no multiple of 3`);
+  return { first, count: count / 3 };
 }

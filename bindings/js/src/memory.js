@@ -15,6 +15,8 @@ export class TactError extends Error {
 
 let wasm, view, loading;
 export const callees = { message: new Map(), draw: null };
+/** Destroys the world, or the kept report, of a handle some time after nothing names what was registered for it. */
+export const handles = new FinalizationRegistry((handle) => wasm.tact_world_destroy(handle));
 
 /** The functions of tact_c.h by their names. */
 export function library() {

@@ -1,28 +1,48 @@
 // Worlds: bodies, steps, queries.
-import { doubles, indicesOf, makeColumns, positionsOf, typed } from "./arrays.js";
+import { doubles, float64s, indicesOf, int32s, makeColumns, positionsOf, uint32s } from "./arrays.js";
+import { Bodies } from "./bodies.js";
+import { drawing, makeOptions } from "./drawing.js";
 import { MotionReport, Report } from "./report.js";
 import {
-  call, callees, copyOf, doubleAt, library, longAt, make, makeAll, nameOf, numberOf, placeString, read, readAll, result, sizeOf,
-  stringAt, viewOf, withMemory, wordAt, write,
+  TactError, call, callees, copyOf, doubleAt, handles, library, longAt, make, makeAll, nameOf, numberOf, placeString, read, readAll,
+  result, sizeOf, stringAt, viewOf, withMemory, wordAt, write,
 } from "./memory.js";
 
-const worlds = new FinalizationRegistry((handle) => library().tact_world_destroy(handle));
 let callers = 0;
 const flagAt = (at) => viewOf(Uint8Array, at, 1)[0] !== 0;
 const hitOrNone = (world, hit) => (hit.facet < 0 ? null : { ...hit, body: world.bodyOf(hit.body) });
+/** The fields of a mesh in tact_body_definition and tact_mesh_update. */
+function meshOf(take, { positions, facets, edges, points }) {
+  const alone = points && int32s(take, points, "points");
+  return {
+    positions: positionsOf(take, positions), facets: facets && indicesOf(take, facets, 3, "facets"),
+    edges: edges && indicesOf(take, edges, 2, "edges"), points: alone?.first, pointCount: alone?.count,
+  };
+}
+/** The fields of a definition that may be left out, and those that say whether they are. */
+const given = (take, { name, key, restOffset }) => ({
+  name: name === undefined ? undefined : placeString(take, String(name)),
+  ...(key !== undefined && { hasKey: true, key }), ...(restOffset != null && { hasRestOffset: true, restOffset }),
+});
+/** The arrays of tact_feature_settings: of each the kind of its numbers, and what they are of. */
+const FEATURE_SETTINGS = {
+  restOffsets: Float64Array, vertexLabels: Uint32Array, facetLabels: Uint32Array, vertexLayers: Uint32Array, vertexMasks: Uint32Array,
+  facetLayers: Uint32Array, facetMasks: Uint32Array, margins: Float64Array,
+};
+const countOf = (array) => `${array.slice(0, -1)}Count`;
 
 /** A set of bodies and the contacts among them. */
 export class World {
-  #handle; #caller = ++callers; #bodies = new Map(); #steps = { detect: 0, motion: 0 };
+  #handle; #caller = ++callers; #bodies = new Bodies(); #steps = { detect: 0, motion: 0 };
 
   constructor(settings = {}) {
     this.#handle = withMemory((take) => result(longAt, 8, "tact_world_create", this.#settings(take, settings)));
-    worlds.register(this, this.#handle, this);
+    handles.register(this, this.#handle, this);
   }
   /** Frees the world's memory now; otherwise it is freed some time after nothing names the world. */
   destroy() {
     call("tact_world_destroy", this.#handle);
-    worlds.unregister(this);
+    handles.unregister(this);
     callees.message.delete(this.#caller);
   }
   get handle() { return this.#handle; }
@@ -52,17 +72,10 @@ export class World {
   }
 
   /** The one object that stands for a body; null for no body. */
-  bodyOf({ index, generation, world }) {
-    if (generation === 0) return null;
-    const known = this.#bodies.get(index);
-    if (known?.generation === generation && known.world === world) return known;
-    const body = Object.freeze({ index, generation, world });
-    this.#bodies.set(index, body);
-    return body;
-  }
+  bodyOf(body) { return this.#bodies.of(body); }
   /** The body whose index stands in an array of a report. */
   bodyAt(index) {
-    return this.#bodies.get(index) ?? this.bodies().find((body) => body.index === index) ?? null;
+    return this.#bodies.latest(index) ?? this.bodies().find((body) => body.index === index) ?? null;
   }
   #body(take, body) { return make(take, "tact_body", body ?? {}); }  // of no body tact says what is wrong
   #added(take, name, at) {
@@ -71,27 +84,13 @@ export class World {
     return this.bodyOf(read("tact_body", body));
   }
 
-  addBody({ positions = [], facets, edges, points, name, key, ...rest }) {
-    return withMemory((take) => {
-      const definition = make(take, "tact_body_definition", { ...rest, positions: positionsOf(take, positions) });
-      if (facets) write("tact_body_definition", definition, { facets: indicesOf(take, facets, 3, "facets") });
-      if (edges) write("tact_body_definition", definition, { edges: indicesOf(take, edges, 2, "edges") });
-      if (points) {
-        const { first, count } = indicesOf(take, typed(Array.from(points), Int32Array, "points"), 1, "points");
-        write("tact_body_definition", definition, { points: first, pointCount: count });
-      }
-      if (name !== undefined) write("tact_body_definition", definition, { name: placeString(take, String(name)) });
-      if (key !== undefined) write("tact_body_definition", definition, { hasKey: true, key });
-      return this.#added(take, "tact_world_add_body", definition);
-    });
+  addBody({ positions = [], facets, edges, points, name, key, restOffset, ...rest }) {
+    return withMemory((take) => this.#added(take, "tact_world_add_body", make(take, "tact_body_definition",
+      { ...rest, ...meshOf(take, { positions, facets, edges, points }), ...given(take, { name, key, restOffset }) })));
   }
-  addPlane({ name, key, ...rest }) {
-    return withMemory((take) => {
-      const definition = make(take, "tact_plane_definition", rest);
-      if (name !== undefined) write("tact_plane_definition", definition, { name: placeString(take, String(name)) });
-      if (key !== undefined) write("tact_plane_definition", definition, { hasKey: true, key });
-      return this.#added(take, "tact_world_add_plane", definition);
-    });
+  addPlane({ name, key, restOffset, ...rest }) {
+    return withMemory((take) => this.#added(take, "tact_world_add_plane", make(take, "tact_plane_definition",
+      { ...rest, ...given(take, { name, key, restOffset }) })));
   }
   removeBody(body) { this.#set("tact_world_remove_body", body); }
 
@@ -107,11 +106,13 @@ export class World {
       call("tact_world_set_positions_of_many", this.#handle, makeAll(take, "tact_positions_update", all), all.length);
     });
   }
-  setFacets(body, positions, facets, vertexMap) {
+  setFacets(body, positions, facets, vertexMap, { edges, points, facetMap = [] } = {}) {
     withMemory((take) => {
-      const map = indicesOf(take, vertexMap, 1, "vertexMap");
-      call("tact_world_set_facets", this.#handle, this.#body(take, body), makeColumns(take, positionsOf(take, positions)),
-        makeColumns(take, indicesOf(take, facets, 3, "facets")), map.first, map.count);
+      const ofVertices = int32s(take, vertexMap, "vertexMap"), ofFacets = int32s(take, facetMap, "facetMap");
+      call("tact_world_set_facets_by", this.#handle, this.#body(take, body), make(take, "tact_mesh_update", {
+        ...meshOf(take, { positions, facets, edges, points }), vertexMap: ofVertices.first, vertexMapCount: ofVertices.count,
+        facetMap: ofFacets.first, facetMapCount: ofFacets.count,
+      }));
     });
   }
   setPose(body, rotation, translation) {
@@ -129,7 +130,33 @@ export class World {
   }
   setMotion(body, motion) { this.#set("tact_world_set_motion", body, numberOf("tact_motion", motion)); }
   setMargin(body, margin) { this.#set("tact_world_set_margin", body, margin); }
+  /** null: the margin, whatever that becomes. */
+  setRestOffset(body, restOffset) {
+    withMemory((take) => call("tact_world_set_rest_offset", this.#handle, this.#body(take, body),
+      restOffset === null ? 0 : doubles(take, [restOffset], 1, "restOffset")));
+  }
+  /** Arrays that are left out set nothing. */
+  setFeatureSettings(body, settings) {
+    withMemory((take) => {
+      const at = make(take, "tact_feature_settings");
+      for (const [name, numbers] of Object.entries(settings)) {
+        const Kind = FEATURE_SETTINGS[name];
+        if (!Kind) throw new TactError("invalid_argument", `there is no array ${name}; there are ${Object.keys(FEATURE_SETTINGS).join(", ")}`);
+        if (numbers === undefined) continue;
+        const { first, count } = (Kind === Float64Array ? float64s : uint32s)(take, numbers, name);
+        write("tact_feature_settings", at, { [name]: first, [countOf(name)]: count });
+      }
+      call("tact_world_set_feature_settings", this.#handle, this.#body(take, body), at);
+    });
+  }
   setSelfContact(body, wanted) { this.#set("tact_world_set_self_contact", body, wanted ? 1 : 0); }
+  setSelfContactFilter(body, { restPositions, ...filter } = {}) {
+    withMemory((take) => call("tact_world_set_self_contact_filter", this.#handle, this.#body(take, body), make(take, "tact_self_contact_filter",
+      { ...filter, restPositions: restPositions && positionsOf(take, restPositions) })));
+  }
+  setExcludedLabels(labels, excluded) {
+    withMemory((take) => call("tact_world_set_excluded_labels", this.#handle, make(take, "tact_label_pair", labels), excluded ? 1 : 0));
+  }
 
   /** Takes one step. The report is valid until the next one. */
   detect() {
@@ -162,6 +189,8 @@ export class World {
       viewOf(Uint8Array, at, bytes.length).set(bytes);
       call("tact_world_restore", this.#handle, at, bytes.length);
     });
+    this.#bodies.restored();
+    this.bodies();
   }
 
   #get(reader, bytes, name, body) {
@@ -179,7 +208,35 @@ export class World {
   externalIdOf(body) { return this.#get(longAt, 8, "tact_world_external_id", body); }
   keyOf(body) { return this.#get(longAt, 8, "tact_world_key", body); }
   marginOf(body) { return this.#get(doubleAt, 8, "tact_world_margin", body); }
+  restOffsetOf(body) { return this.#get(doubleAt, 8, "tact_world_rest_offset", body); }
+  featureSettingsOf(body) {
+    return withMemory((take) => {
+      const at = make(take, "tact_feature_settings");
+      call("tact_world_feature_settings", this.#handle, this.#body(take, body), at);
+      const found = read("tact_feature_settings", at);
+      return Object.fromEntries(Object.entries(FEATURE_SETTINGS).map(([name, Kind]) => [name, copyOf(Kind, found[name], found[countOf(name)])]));
+    });
+  }
+  labelsOf(body, vertices) {
+    return withMemory((take) => {
+      const { first, count } = int32s(take, vertices, "vertices"), at = take(sizeOf("tact_feature_labels"));
+      if (count !== 3) throw new TactError("wrong_size", `a feature has 3 vertices, of which -1 fills up, not ${count}`);
+      call("tact_world_labels", this.#handle, this.#body(take, body), first, at);
+      return read("tact_feature_labels", at);
+    });
+  }
   selfContactOf(body) { return this.#get(flagAt, 1, "tact_world_self_contact", body); }
+  selfContactFilterOf(body) {
+    return withMemory((take) => {
+      const at = make(take, "tact_self_contact_filter");
+      call("tact_world_self_contact_filter", this.#handle, this.#body(take, body), at);
+      const { rings, restDistance, restPositions: { first, count } } = read("tact_self_contact_filter", at);
+      return { rings, restDistance, restPositions: copyOf(Float64Array, first, 3 * count) };
+    });
+  }
+  areExcludedLabels(labels) {
+    return withMemory((take) => result(flagAt, 1, "tact_world_excluded_labels", this.#handle, make(take, "tact_label_pair", labels)));
+  }
   isExcluded(a, b) {
     return withMemory((take) => result(flagAt, 1, "tact_world_excluded", this.#handle, this.#body(take, a), this.#body(take, b)));
   }
@@ -256,13 +313,40 @@ export class World {
     return withMemory((take) => this.#listed("tact_world_cast_ray_all", "tact_ray_hit", make(take, "tact_ray", ray)))
       .map((hit) => hitOrNone(this, hit));
   }
+  /** An answer to each query. */
+  #answers(name, query, answer, queries) {
+    return withMemory((take) => {
+      const answers = take(queries.length * sizeOf(answer));
+      call(name, this.#handle, makeAll(take, query, queries), queries.length, answers);
+      return readAll(answer, answers, queries.length);
+    });
+  }
   closestPoint(query) { return this.closestPoints([query])[0]; }
   closestPoints(queries) {
-    return withMemory((take) => {
-      const answers = take(queries.length * sizeOf("tact_closest_point"));
-      call("tact_world_closest_points", this.#handle, makeAll(take, "tact_point_query", queries), queries.length, answers);
-      return readAll("tact_closest_point", answers, queries.length).map((answer) => hitOrNone(this, answer));
-    });
+    return this.#answers("tact_world_closest_points", "tact_point_query", "tact_closest_point", queries).map((answer) => hitOrNone(this, answer));
+  }
+  signedDistance(query) { return this.signedDistances([query])[0]; }
+  signedDistances(queries) {
+    return this.#answers("tact_world_signed_distances", "tact_point_query", "tact_closest_point", queries).map((answer) => hitOrNone(this, answer));
+  }
+  #distance({ containment, ...rest }) {
+    return { ...rest, a: this.bodyOf(rest.a), b: this.bodyOf(rest.b), containment: nameOf("tact_containment", containment) };
+  }
+  distance(query) { return this.distances([query])[0]; }
+  distances(queries) {
+    return this.#answers("tact_world_distances", "tact_distance_query", "tact_body_distance", queries).map((answer) => this.#distance(answer));
+  }
+  nearestBodies(query) {
+    return withMemory((take) => this.#listed("tact_world_nearest_bodies", "tact_body_distance", make(take, "tact_nearest_bodies_query", query)))
+      .map((answer) => this.#distance(answer));
+  }
+  sweep(sweep) { return this.sweeps([sweep])[0]; }
+  sweeps(sweeps) {
+    return this.#answers("tact_world_sweeps", "tact_sweep", "tact_sweep_hit", sweeps).map((hit) => hitOrNone(this, hit));
+  }
+  overlap(a, b) {
+    return withMemory((take) => result((at) => read("tact_overlap", at), sizeOf("tact_overlap"),
+      "tact_world_overlap", this.#handle, this.#body(take, a), this.#body(take, b)));
   }
   #facet({ body, facet }) { return { body: this.bodyOf(body), facet }; }
   overlapBox(box) {
@@ -284,17 +368,21 @@ export class World {
 
   /** Calls the functions of `drawer`, `line`, `triangle` and `text`, with what the last step found. */
   debugDraw(drawer, options = {}) {
+    withMemory((take) => drawing(drawer, (to) => call("tact_world_debug_draw", this.#handle, to, makeOptions(take, options))));
+  }
+  /** The same with what distances() gave. */
+  debugDrawDistances(distances, drawer, options = {}) {
     withMemory((take) => {
-      const at = take(sizeOf("tact_debug_draw_options"));
-      call("tact_debug_draw_defaults", at);
-      write("tact_debug_draw_options", at, Object.fromEntries(Object.entries(options).map(([key, value]) =>
-        [key, Array.isArray(value) ? { red: value[0], green: value[1], blue: value[2], alpha: value[3] ?? 1 } : value])));
-      callees.draw = drawer;
-      try {
-        call("tact_world_debug_draw", this.#handle, library().tact_js_drawer(0), at);
-      } finally {
-        callees.draw = null;
-      }
+      const all = makeAll(take, "tact_body_distance",
+        distances.map((one) => ({ ...one, containment: numberOf("tact_containment", one.containment) })));
+      drawing(drawer, (to) => call("tact_world_debug_draw_distances", this.#handle, all, distances.length, to, makeOptions(take, options)));
+    });
+  }
+  /** The same with the sums of the last step. */
+  debugDrawSums(impulses, drawer, options = {}) {
+    withMemory((take) => {
+      const all = makeAll(take, "tact_point_impulse", impulses);
+      drawing(drawer, (to) => call("tact_world_debug_draw_sums", this.#handle, all, impulses.length, to, makeOptions(take, options)));
     });
   }
 }

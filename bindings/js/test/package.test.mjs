@@ -1,19 +1,11 @@
-// The package as it is built: TACT_PACKAGE names its folder. What it answers is held against what C and C++ are tested for.
+// What the package answers is held against what C and C++ are tested for.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { readFileSync, readdirSync } from "node:fs";
 import { test } from "node:test";
-import { fileURLToPath, pathToFileURL } from "node:url";
 import { functionsOf, readHeader } from "../header.mjs";
+import { SHEET, TETRAHEDRON, fails, folder, here, movedBy, tact } from "./package.mjs";
 
-const here = (path) => fileURLToPath(new URL(path, import.meta.url));
-const folder = process.env.TACT_PACKAGE;
-const tact = await import(pathToFileURL(`${folder}/src/index.js`).href);
-const { SharedArray, TactError, World } = tact;
-
-const TETRAHEDRON = { positions: [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], facets: [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3] };
-const movedBy = (x, y = 0, z = 0) => TETRAHEDRON.positions.map((value, i) => value + [x, y, z][i % 3]);
-const SHEET = { positions: [-5, -5, 0, 5, -5, 0, 5, 5, 0, -5, 5, 0], facets: [0, 1, 2, 0, 2, 3], surface: "sheet" };
-const fails = (code, call, words) => assert.throws(call, (error) => error instanceof TactError && error.code === code && words.test(error.message));
+const { SharedArray, World } = tact;
 
 test("nothing works before ready()", () => {
   fails("wrong_order", () => new World(), /ready\(\)/);
@@ -226,19 +218,24 @@ test("for solvers: stencils and their energies", () => {
 });
 
 test("every function of tact_c.h is here", () => {
-  const sources = ["memory", "world", "report", "solver", "index"].map((name) => readFileSync(`${folder}/src/${name}.js`, "utf8")).join("\n");
+  const sources = readdirSync(`${folder}/src`).filter((name) => !["abi.js", "wasm.js"].includes(name))
+    .map((name) => readFileSync(`${folder}/src/${name}`, "utf8")).join("\n");
   const missing = functionsOf(readHeader(here("../../c/include/tact/tact_c.h"))).filter((name) => !new RegExp(`\\b${name}\\b`).test(sources));
-  // Recordings are files, which a browser has not; one point is a case of many, and detectMotion() is that by options.
+  // Recordings are files, which a browser has not; one query is a case of many, and where there is a function by options, the
+  // one without is a case of it.
   assert.deepEqual(missing.sort(), ["tact_player_close", "tact_player_cut_at", "tact_player_next", "tact_player_open", "tact_player_recorded_by",
-    "tact_player_world", "tact_world_closest_point", "tact_world_detect_motion", "tact_world_record"]);
+    "tact_player_world", "tact_world_closest_point", "tact_world_detect_motion", "tact_world_distance", "tact_world_record",
+    "tact_world_set_facets", "tact_world_signed_distance", "tact_world_sweep"]);
 });
 
 test("the types name what there is", () => {
   const types = readFileSync(`${folder}/index.d.ts`, "utf8");
-  const named = (object) => Object.getOwnPropertyNames(object).filter((name) => name !== "constructor");
+  const named = (object) => (object === Object.prototype ? []
+    : [...Object.getOwnPropertyNames(object).filter((name) => name !== "constructor"), ...named(Object.getPrototypeOf(object))]);
+  const of = (object) => named(Object.getPrototypeOf(object)).filter((name) => name !== "valid" && name !== "placed");
   const world = new World({ points: true }), report = world.detect();
-  const all = [...Object.keys(tact), ...named(World.prototype), ...named(Object.getPrototypeOf(report)), ...named(Object.getPrototypeOf(report.stencils([]))),
-    ...named(Object.getPrototypeOf(world.detectMotion())), ...named(SharedArray.prototype)];
+  const all = [...Object.keys(tact), ...named(World.prototype), ...of(report), ...of(report.keep()), ...of(report.stencils([])),
+    ...of(report.stencilsWithinReach([])), ...of(world.detectMotion()), ...named(SharedArray.prototype)];
   assert.deepEqual(all.filter((name) => !new RegExp(`\\b${name}\\b`).test(types)), []);
   world.destroy();
 });
