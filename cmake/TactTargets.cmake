@@ -17,7 +17,7 @@ unset(CMAKE_REQUIRED_FLAGS)
 
 function(tact_options target)
   if(NOT TACT_HAS_RANGE_ALGORITHMS)
-    target_compile_options(${target} PRIVATE -include ${PROJECT_SOURCE_DIR}/cmake/platforms/early_libcxx.h)
+    target_compile_options(${target} PRIVATE -include ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/platforms/early_libcxx.h)
   endif()
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES
