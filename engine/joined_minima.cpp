@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "broadphase/index_pair.h"
 #include "engine/base/floating_point_mode.h"
 #include "engine/base/text.h"
 #include "engine/base/vec3.h"
@@ -105,13 +106,14 @@ class JoinedMinima {
     return joined_.within + kRounding * size;
   }
 
+  broadphase::Filter filter(BodyId body) const {
+    return {world_.layer(body), world_.mask(body), world_.motion(body) == Motion::fixed, world_.group(body)};
+  }
+
   bool are_joined(BodyId a, BodyId b) const {
     if (a == b) return true;
     if ((world_.layer(a) & joined_.layers) != 0 && (world_.layer(b) & joined_.layers) != 0) return true;
-    const bool masks_meet = (world_.layer(a) & world_.mask(b)) != 0 && (world_.layer(b) & world_.mask(a)) != 0;
-    const bool fixed = world_.motion(a) == Motion::fixed && world_.motion(b) == Motion::fixed;
-    const bool one_group = world_.group(a) != 0 && world_.group(a) == world_.group(b);
-    return !masks_meet || fixed || one_group || world_.excluded(a, b);
+    return !broadphase::tested(filter(a), filter(b)) || world_.excluded(a, b);
   }
 
   // The corners of what is found at a side's place, if it is a facet of the same surface.

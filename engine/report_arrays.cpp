@@ -65,6 +65,16 @@ std::size_t count_in_contacts(const Report& report, const List& list) {
   return count;
 }
 
+FeatureLabels labels_now(const World& world, BodyId body, const std::array<int, 3>& vertices) {
+  try {
+    return world.labels(body, vertices);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::invalid_argument) throw;
+    throw Error(ErrorCode::wrong_order,
+                std::string("the report is of facets that have changed since: ") + error.what());
+  }
+}
+
 std::uint64_t patch_id(const Contact& contact, const ContactPoint& point) {
   const auto patch = static_cast<std::size_t>(point.patch);
   return patch < contact.patches().size() ? contact.patches()[patch].id : 0;
@@ -114,7 +124,8 @@ void copy_point_labels(const World& world, const Report& report, const PointLabe
   std::size_t row = 0;
   for (const Contact& contact : report.contacts()) {
     for (const ContactPoint& point : contact.points()) {
-      const FeatureLabels a = world.labels(contact.a, point.a_vertices), b = world.labels(contact.b, point.b_vertices);
+      const FeatureLabels a = labels_now(world, contact.a, point.a_vertices),
+                          b = labels_now(world, contact.b, point.b_vertices);
       put(arrays.a_facets, row, a.facet);
       put(arrays.b_facets, row, b.facet);
       put_three(arrays.a_vertices, row, a.vertices);

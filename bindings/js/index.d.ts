@@ -140,12 +140,12 @@ export interface LabelPair {
   labelA: number;
   b: Body;
   labelB: number;
-  /** By default "facet": facets, and the edges and vertices of no other; "vertex": vertices, and the edges and facets that have any of them. */
+  /** By default "facet": facets, and edges and vertices that only such facets have; "vertex": vertices, and the edges and facets that have any of them. */
   kind?: "facet" | "vertex";
 }
 /** Which features of a body that is tested against itself are too near to each other to be tested. */
 export interface SelfContactFilter {
-  /** Features with vertices at most so many edges apart are left out, 0 to 16; 0 adds none. */
+  /** Features with vertices at most so many edges apart are left out, 0 to 16; 0 leaves out those with a common vertex alone. */
   rings?: number;
   /** Features with vertices at most so far apart at rest are left out, metres; 0 leaves out none. */
   restDistance?: number;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "tests/support/checks/detection.h"
 #include "tests/support/generators/bodies.h"
 
 namespace tact::tests {
@@ -95,6 +96,11 @@ TEST(ReportArrays, OfLabelsHoldThoseThatTheWorldTells) {
   }
   EXPECT_GT(labelled, 5u);
   EXPECT_THROW(copy_point_labels(scene.world, report, {.a_facets = std::span(a_facets).first(1)}), Error);
+
+  const Mesh smaller = icosphere(0);
+  scene.world.set_facets(scene.balls[1], smaller.positions, smaller.facets,
+                         std::vector<int>(static_cast<std::size_t>(smaller.positions.cols()), -1));
+  EXPECT_TRUE(throws_error([&] { copy_point_labels(scene.world, report, {a_facets}); }, ErrorCode::wrong_order));
 }
 
 TEST(ReportArrays, OfFacetPairsHoldThoseOfTheContacts) {

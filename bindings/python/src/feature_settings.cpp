@@ -69,13 +69,14 @@ void set_self_contact_filter(SharedWorld& world, BodyId body, int rings, double 
 
 void define_pairs(py::module_& module, WorldClass& world) {
   py::enum_<LabelKind>(module, "LabelKind", "What has a label.")
-      .value("facet", LabelKind::facet, "facets, and the edges and vertices of no other facet")
+      .value("facet", LabelKind::facet, "facets, and edges and vertices that only such facets have")
       .value("vertex", LabelKind::vertex, "vertices, and the edges and facets that have any of them");
   py::class_<SelfContactFilterOfBody>(
       module, "SelfContactFilter",
       "Which features of a body that is tested against itself are too near to each other to be tested.")
       .def_readonly("rings", &SelfContactFilterOfBody::rings,
-                    "features with vertices at most so many edges apart are left out, 0 to 16; 0 adds none")
+                    "features with vertices at most so many edges apart are left out, 0 to 16; 0 leaves out those "
+                    "with a common vertex alone")
       .def_readonly("rest_distance", &SelfContactFilterOfBody::rest_distance,
                     "features with vertices at most so far apart at rest are left out, metres, 0 to "
                     "LARGEST_COORDINATE; 0 leaves out none")

@@ -1015,7 +1015,7 @@ class SelfContactFilter:
 
     @property
     def rings(self) -> int:
-        """features with vertices at most so many edges apart are left out, 0 to 16; 0 adds none"""
+        """features with vertices at most so many edges apart are left out, 0 to 16; 0 leaves out those with a common vertex alone"""
     @property
     def rest_distance(self) -> float:
         """features with vertices at most so far apart at rest are left out, metres, 0 to LARGEST_COORDINATE; 0 leaves out none"""

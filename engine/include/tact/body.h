@@ -95,7 +95,8 @@ struct FeatureSettings {
 
 /// Which features of a body that is tested against itself are too near to each other to be tested.
 struct SelfContactFilter {
-  /// Features with vertices at most so many edges apart are left out, 0 to 16; 0 adds none.
+  /// Features with vertices at most so many edges apart are left out, 0 to 16; 0 leaves out
+  /// those with a common vertex alone.
   int rings = 0;
   /// Features with vertices at most so far apart at rest are left out, metres, 0 to kLargestCoordinate; 0 leaves out
   /// none.
@@ -106,7 +107,7 @@ struct SelfContactFilter {
 
 /// What has a label.
 enum class LabelKind {
-  facet,   ///< facets, and the edges and vertices of no other facet
+  facet,   ///< facets, and edges and vertices that only such facets have
   vertex,  ///< vertices, and the edges and facets that have any of them
 };
 

@@ -97,7 +97,8 @@ class TACT_API World {
   /// still there keeps ids and history; the manual tells how. Errors: stale_body, foreign_body, wrong_motion (a rigid
   /// body), invalid_argument (no such old vertex), and those of add_body().
   void set_facets(BodyId body, const Positions& positions, const Facets& facets, std::span<const int> vertex_map);
-  /// The same with edges and points, of which the other leaves none, and with labels of facets. Errors: as above.
+  /// The same with edges and points, of which the other leaves none, and with labels, layers and masks of facets.
+  /// Errors: as above; invalid_argument also of a facet map.
   void set_facets(BodyId body, const MeshUpdate& update);
 
   /// Places a rigid body: a vertex added at p stands at rotation * p + translation. `rotation` is orthonormal to 1e-9.
@@ -119,10 +120,11 @@ class TACT_API World {
   void set_motion(BodyId body, Motion motion);
 
   /// Sets how far ahead of a body's surface contact points are seen, metres. Errors: stale_body, foreign_body,
-  /// invalid_argument (also below a rest offset).
+  /// invalid_argument (also below a rest offset, or a margin of a vertex).
   void set_margin(BodyId body, double margin);
   /// Sets what a body adds to the distance that surfaces keep, metres; none takes the margin, whatever that becomes.
-  /// Errors: stale_body, foreign_body, invalid_argument (not 0 to the margin).
+  /// Errors: stale_body, foreign_body, invalid_argument (not 0 to the margin, or above that
+  /// of a vertex).
   void set_rest_offset(BodyId body, std::optional<double> rest_offset);
   /// Replaces the settings of single vertices and facets of a body. Errors: stale_body, foreign_body, wrong_size,
   /// invalid_argument (a margin or a rest offset is not 0 to the one above it), out_of_memory.

@@ -275,7 +275,8 @@ typedef struct tact_feature_settings {
 /** Which features of a body that is tested against itself are too near to each other to be tested. */
 typedef struct tact_self_contact_filter {
   uint32_t struct_size;
-  /** Features with vertices at most so many edges apart are left out, 0 to 16; 0 adds none. */
+  /** Features with vertices at most so many edges apart are left out, 0 to 16; 0 leaves out those with a
+   * common vertex alone. */
   int32_t rings;
   /** Features with vertices at most so far apart at rest are left out, metres, 0 to 2^300; 0 leaves out none. */
   double rest_distance;
@@ -289,7 +290,7 @@ typedef struct tact_self_contact_filter {
 
 /** What has a label. */
 typedef enum tact_label_kind {
-  TACT_LABEL_FACET = 0, /**< facets, and the edges and vertices of no other facet */
+  TACT_LABEL_FACET = 0, /**< facets, and edges and vertices that only such facets have */
   TACT_LABEL_VERTEX = 1 /**< vertices, and the edges and facets that have any of them */
 } tact_label_kind;
 
@@ -340,7 +341,7 @@ TACT_C_API tact_error tact_world_set_positions_of_many(tact_world world, const t
  * `count` entries, one a new vertex. */
 TACT_C_API tact_error tact_world_set_facets(tact_world world, tact_body body, const tact_columns* positions,
                                             const tact_columns* facets, const int32_t* vertex_map, size_t count);
-/** The same with edges and points, of which the other leaves none, and with labels of facets. */
+/** The same with edges and points, of which the other leaves none, and with labels, layers and masks of facets. */
 TACT_C_API tact_error tact_world_set_facets_by(tact_world world, tact_body body, const tact_mesh_update* update);
 /** Places a rigid body: a vertex added at p stands at rotation * p + translation. `rotation` has 9 numbers, row by row,
  * `translation` 3. */
