@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "narrowphase/kernels/kernels.h"
@@ -268,7 +269,7 @@ bool SmoothPatches::Judge::continues(const Region& region) {
   const auto avoids = [&](const Flat& p) {
     const auto along = between(p);
     return p.x < region.low_x || p.x > region.high_x || p.y < region.low_y ||
-           !std::ranges::equal(along, region.low, std::ranges::greater_equal());
+           !std::ranges::equal(along, region.low, std::greater_equal<>());
   };
   for (std::size_t i = 0; i < ends_.size(); ++i) {
     const End& end = ends_[i];
