@@ -88,7 +88,7 @@ void World::Implementation::send_exclusions() {
   std::optional<Keys> others;
   channel.together([&] {
     std::vector<std::uint64_t> keys;
-    for (const Exclusion& one : exclusions) keys.push_back(one.other);
+    for (const Exclusion& one : exclusions) keys.push_back(one.pair.other);
     others.emplace(keys);
   });
   directory.find(*others);
@@ -96,33 +96,29 @@ void World::Implementation::send_exclusions() {
   const std::vector<Exclusion> all = std::exchange(exclusions, {});
   const auto messages = channel.exchange([&](Outbox& outbox) {
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const auto put_to = [&](int rank) { outbox.to(rank).put(all[i].own, all[i].other, all[i].wanted, all[i].marks); };
-      if (held.shared.contains(all[i].other)) {
+      const auto put_to = [&](int rank) { all[i].put(outbox.to(rank)); };
+      if (held.shared.contains(all[i].pair.other)) {
         for (int rank = 0; rank < channel.size(); ++rank) put_to(rank);
       } else if (owners[i] >= 0) {
         put_to(owners[i]);
       } else if (all[i].marks) {
         throw Error(ErrorCode::stale_body,
-                    "nobody owns a body of key " + std::to_string(all[i].other) + ", which was to be excluded");
+                    "nobody owns a body of key " + std::to_string(all[i].pair.other) + ", which was to be excluded");
       }
     }
   });
   channel.together([&] {
     std::vector<Exclusion> come;
     for (const Message& message : messages) {
-      for (ByteReader reader(message.bytes); !reader.at_end();) {
-        Exclusion& one = come.emplace_back();
-        one.other = reader.get<std::uint64_t>(), one.own = reader.get<std::uint64_t>();
-        one.wanted = reader.get<bool>(), one.marks = reader.get<bool>();
-      }
+      for (ByteReader reader(message.bytes); !reader.at_end();) come.push_back(Exclusion::get(reader));
     }
     // Those of removed bodies first: another may have come with the key of one.
     std::ranges::stable_sort(come, {}, &Exclusion::marks);
     for (const Exclusion& one : come) {
-      if (const auto shared = held.shared.find(one.own); shared != held.shared.end()) {
+      if (const auto shared = held.shared.find(one.pair.other); shared != held.shared.end()) {
         if (one.marks) parts.mark_moved(shared->second, false);
-      } else if (held.own.contains(one.own)) {
-        exclude(one.own, one.other, one.wanted, one.marks);
+      } else if (held.own.contains(one.pair.other)) {
+        exclude(one.pair.swapped(), one.wanted, one.marks);
       }
     }
   });

@@ -163,14 +163,7 @@ void World::Implementation::put_ghost(std::uint64_t key, int owner, std::span<co
   const BodyId id = parts.put(shape, reader.get_bytes(), true);
   held.ghosts[key] = {id, owner};
   held.hold(id, {Held::Role::ghost, owner, {vertices, key}});
-  exclude_here(key);
-}
-
-// The pairs of a body that came, with bodies of this rank.
-void World::Implementation::exclude_here(std::uint64_t key) {
-  const BodyId id = held.find(key);
-  for (const std::uint64_t own_key : HeldBodies::seconds(held.excluders, key))
-    parts.exclude(held.own.at(own_key).id, id, true);
+  for (const ExcludedPair& pair : HeldBodies::pairs_of(held.excluders, key)) exclude_here(pair.swapped(), true);
 }
 
 // First those that go: another body may come with the same key.

@@ -77,6 +77,24 @@ struct Held {
 /// Two keys, the smaller one first.
 using KeyPair = std::pair<std::uint64_t, std::uint64_t>;
 
+/// What is excluded by name, as the owner of the first body has it: two bodies, or features of two labels of them.
+struct ExcludedPair {
+  std::uint64_t key = 0, other = 0;
+  std::uint32_t label = 0, label_of_other = 0;  ///< 0 of the bodies themselves
+  LabelKind kind = LabelKind::facet;
+
+  bool is_of_labels() const { return label != 0; }
+  ExcludedPair swapped() const { return {other, key, label_of_other, label, kind}; }
+  void put(ByteWriter& to) const { to.put(key, other, label, label_of_other, kind); }
+  static ExcludedPair get(ByteReader& from) {
+    ExcludedPair pair{.key = from.get<std::uint64_t>(), .other = from.get<std::uint64_t>()};
+    pair.label = from.get<std::uint32_t>(), pair.label_of_other = from.get<std::uint32_t>();
+    pair.kind = from.get<LabelKind>();
+    return pair;
+  }
+  friend auto operator<=>(const ExcludedPair&, const ExcludedPair&) = default;
+};
+
 class HeldBodies final : public PairChoice {
  public:
   std::map<std::uint64_t, OwnBody> own;
@@ -123,20 +141,19 @@ class HeldBodies final : public PairChoice {
     return found != ghosts.end() ? found->second.id : BodyId{};
   }
 
-  /// Pairs that are excluded by name, of an own body and another; `excluders` the other way round.
-  std::set<KeyPair> excluded, excluders;
-  void set_excluded(std::uint64_t own_key, std::uint64_t other, bool wanted) {
+  /// What is excluded by name, of an own body and another; `excluders` the other way round.
+  std::set<ExcludedPair> excluded, excluders;
+  void set_excluded(const ExcludedPair& pair, bool wanted) {
     if (wanted) {
-      excluded.insert({own_key, other}), excluders.insert({other, own_key});
+      excluded.insert(pair), excluders.insert(pair.swapped());
     } else {
-      excluded.erase({own_key, other}), excluders.erase({other, own_key});
+      excluded.erase(pair), excluders.erase(pair.swapped());
     }
   }
-  /// The second keys of the pairs that begin with a key.
-  static std::vector<std::uint64_t> seconds(const std::set<KeyPair>& pairs, std::uint64_t first) {
-    std::vector<std::uint64_t> found;
-    for (auto at = pairs.lower_bound({first, 0}); at != pairs.end() && at->first == first; ++at)
-      found.push_back(at->second);
+  /// The pairs that begin with a key.
+  static std::vector<ExcludedPair> pairs_of(const std::set<ExcludedPair>& pairs, std::uint64_t key) {
+    std::vector<ExcludedPair> found;
+    for (auto at = pairs.lower_bound({.key = key}); at != pairs.end() && at->key == key; ++at) found.push_back(*at);
     return found;
   }
 

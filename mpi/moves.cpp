@@ -126,7 +126,9 @@ void World::Implementation::pack_body(std::uint64_t key, std::span<const SavedPa
   to.put_all(parts.rest(body.id));
   to.put_all(parts.self_of(body.id));
   to.put(held.at(body.id).order.vertices, body.is_rigid, body.work);
-  to.put_all(HeldBodies::seconds(held.excluded, key));
+  const std::vector<ExcludedPair> excluded = HeldBodies::pairs_of(held.excluded, key);
+  to.put(std::uint64_t{excluded.size()});
+  for (const ExcludedPair& pair : excluded) pair.put(to);
   to.put(std::uint64_t{pairs.size()});
   for (const SavedPair& pair : pairs) put(pair, to);
 }
@@ -188,7 +190,8 @@ World::Implementation::Arrival& World::Implementation::unpack_body(std::uint64_t
   parts.put_self(id, self);
   arrival.body.is_rigid = reader.get<bool>();
   arrival.body.work = reader.get<std::int64_t>();
-  arrival.excluded = reader.get_all<std::uint64_t>();
+  for (auto count = reader.get<std::uint64_t>(); count > 0; --count)
+    arrival.excluded.push_back(ExcludedPair::get(reader));
   for (auto count = reader.get<std::uint64_t>(); count > 0; --count) arrival.pairs.push_back(get_pair(reader));
   return arrival;
 }
@@ -220,7 +223,7 @@ void World::Implementation::let_go(const Goals& goals, Leaving&& leaving) {
     held.drop(at(key).id);
     held.own.erase(key);
     new_owners.erase(key);
-    for (const std::uint64_t other : HeldBodies::seconds(held.excluded, key)) held.set_excluded(key, other, false);
+    for (const ExcludedPair& pair : HeldBodies::pairs_of(held.excluded, key)) held.set_excluded(pair, false);
     if (body_state.drop) body_state.drop(key);
   }
   parts.take(ids);
@@ -230,14 +233,11 @@ void World::Implementation::take_in(std::vector<Arrival>&& arrivals) {
   for (Arrival& arrival : arrivals) {
     held.own[arrival.key] = std::move(arrival.body);
     for (SavedPair& pair : arrival.pairs) waiting.push_back({arrival.key, std::move(pair)});
-    for (const std::uint64_t other : arrival.excluded) held.set_excluded(arrival.key, other, true);
+    for (const ExcludedPair& pair : arrival.excluded) held.set_excluded(pair, true);
     for (const auto& [keys, to] : arrival.sent) sent[keys] = {to, false};
   }
   for (const Arrival& arrival : arrivals) {
-    for (const std::uint64_t other : arrival.excluded) {
-      const BodyId id = held.find(other);
-      if (id.generation != 0) parts.exclude(held.own.at(arrival.key).id, id, true);
-    }
+    for (const ExcludedPair& pair : arrival.excluded) exclude_here(pair, true);
   }
 }
 

@@ -12,7 +12,7 @@ namespace tact::mpi {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x6b6e617274636174;  // "tactrank"
-constexpr std::uint64_t kVersion = 2;                 // of the bytes, and of all that they hold
+constexpr std::uint64_t kVersion = 3;                 // of the bytes, and of all that they hold
 
 [[noreturn]] void refuse(const char* what) { throw Error(ErrorCode::bad_state, what); }
 
@@ -76,7 +76,7 @@ Bytes World::Implementation::content_of_share() {
   writer.put(std::uint64_t{ended.size()});
   for (const SavedPair& pair : ended) put(pair, writer);
   writer.put(std::uint64_t{exclusions.size()});
-  for (const Exclusion& one : exclusions) writer.put(one.own, one.other, one.wanted, one.marks);
+  for (const Exclusion& one : exclusions) one.put(writer);
   return std::move(writer.bytes());
 }
 
@@ -163,11 +163,7 @@ void World::Implementation::take_shares(std::span<const Share> shares, States& s
       SavedPair pair = get_pair(reader);
       waiting.push_back({pair.key_a, std::move(pair)});
     }
-    for (auto count = reader.get<std::uint64_t>(); count > 0; --count) {
-      Exclusion& one = exclusions.emplace_back();
-      one.own = reader.get<std::uint64_t>(), one.other = reader.get<std::uint64_t>();
-      one.wanted = reader.get<bool>(), one.marks = reader.get<bool>();
-    }
+    for (auto count = reader.get<std::uint64_t>(); count > 0; --count) exclusions.push_back(Exclusion::get(reader));
     if (!reader.at_end()) refuse("a share goes on after its end");
   }
   take_in(std::move(arrivals));

@@ -98,14 +98,32 @@ void World::Implementation::note_change(OwnBody& body, bool has_moved) {
   if (has_moved) body.positions = body.version;
 }
 
-void World::Implementation::exclude(std::uint64_t own_key, std::uint64_t other, bool wanted, bool marks) {
-  OwnBody& body = at(own_key);
-  if (held.excluded.contains({own_key, other}) == wanted) return;
-  held.set_excluded(own_key, other, wanted);
-  if (const BodyId id = held.find(other); local.contains(id)) parts.exclude(body.id, id, wanted);
+// By the owner of the first body of the pair; that of the other may have to be told.
+void World::Implementation::set_excluded(const ExcludedPair& pair, bool wanted) {
+  if (held.excluded.contains(pair) == wanted) return;
+  exclude(pair, wanted, true);
+  if (held.own.contains(pair.other)) return exclude(pair.swapped(), wanted, true);
+  exclusions.push_back({pair, wanted, true});
+}
+
+void World::Implementation::exclude(const ExcludedPair& pair, bool wanted, bool marks) {
+  OwnBody& body = at(pair.key);
+  if (held.excluded.contains(pair) == wanted) return;
+  held.set_excluded(pair, wanted);
+  exclude_here(pair, wanted);
   if (!marks) return;
   parts.mark_moved(body.id, false);
   note_change(body, false);
+}
+
+// Of an own body and another, if that is here.
+void World::Implementation::exclude_here(const ExcludedPair& pair, bool wanted) {
+  const BodyId own = at(pair.key).id, other = held.find(pair.other);
+  if (!local.contains(other)) return;
+  if (pair.is_of_labels())
+    parts.exclude({own, pair.label, other, pair.label_of_other, pair.kind}, wanted);
+  else
+    parts.exclude(own, other, wanted);
 }
 
 // A body comes of the key of a ghost: its owner has removed that one, or the next call together refuses the key.
@@ -192,6 +210,9 @@ void World::remove_body(std::uint64_t key) {
   if (const auto shared = i.held.shared.find(key); shared != i.held.shared.end()) {
     const BodyId id = shared->second;
     i.local.remove_body(id);
+    for (const ExcludedPair& pair : HeldBodies::pairs_of(i.held.excluders, key))
+      i.held.set_excluded(pair.swapped(), false);
+    std::erase_if(i.exclusions, [&](const auto& one) { return one.pair.other == key; });
     i.held.gone[id] = {key, -1, true};
     i.held.drop(id);
     i.held.shared.erase(shared);
@@ -199,12 +220,12 @@ void World::remove_body(std::uint64_t key) {
     return;
   }
   OwnBody& body = i.at(key);
-  for (const std::uint64_t other : HeldBodies::seconds(i.held.excluded, key)) {
-    if (i.held.own.contains(other))
-      i.exclude(other, key, false, false);
-    else if (!i.held.shared.contains(other))
-      i.exclusions.push_back({key, other, false, false});
-    i.held.set_excluded(key, other, false);
+  for (const ExcludedPair& pair : HeldBodies::pairs_of(i.held.excluded, key)) {
+    if (i.held.own.contains(pair.other))
+      i.exclude(pair.swapped(), false, false);
+    else if (!i.held.shared.contains(pair.other))
+      i.exclusions.push_back({pair, false, false});
+    i.held.set_excluded(pair, false);
   }
   i.local.remove_body(body.id);
   i.held.gone[body.id] = {key, -1, true};
@@ -287,7 +308,13 @@ void World::set_rest_offset(std::uint64_t key, std::optional<double> rest_offset
 void World::set_feature_settings(std::uint64_t key, const FeatureSettings& settings) {
   Implementation& i = implementation();
   OwnBody& body = i.at(key);
+  // Answers depend on labels of which some are excluded: with what, this rank's world may not hold.
+  const FeatureSettings last = i.local.feature_settings(body.id);
+  const bool marks = std::ranges::any_of(HeldBodies::pairs_of(i.held.excluded, key), &ExcludedPair::is_of_labels) &&
+                     !(std::ranges::equal(last.vertex_labels, settings.vertex_labels) &&
+                       std::ranges::equal(last.facet_labels, settings.facet_labels));
   i.local.set_feature_settings(body.id, settings);
+  if (marks) i.parts.mark_moved(body.id, false);
   body.features = ++body.version;
 }
 void World::set_self_contact(std::uint64_t key, bool wanted) {
@@ -303,10 +330,17 @@ void World::set_excluded(std::uint64_t key, std::uint64_t other, bool excluded) 
   Implementation& i = implementation();
   i.at(key);
   if (key == other) refuse(ErrorCode::invalid_argument, key_text(key) + ": a pair is of two bodies; see self_contact");
-  if (i.held.excluded.contains({key, other}) == excluded) return;
-  i.exclude(key, other, excluded, true);
-  if (i.held.own.contains(other)) return i.exclude(other, key, excluded, true);
-  i.exclusions.push_back({key, other, excluded, true});
+  i.set_excluded({.key = key, .other = other}, excluded);
+}
+
+void World::set_excluded_labels(const LabelPair& labels, bool excluded) {
+  Implementation& i = implementation();
+  const ExcludedPair given{labels.key_a, labels.key_b, labels.label_a, labels.label_b, labels.kind};
+  const ExcludedPair pair = i.held.own.contains(given.key) ? given : given.swapped();
+  const BodyId own = i.at(pair.key).id, other = i.held.find(pair.other);
+  // Refuses labels that are none, and planes, of which every rank has all.
+  i.local.excluded_labels({own, pair.label, i.local.contains(other) ? other : own, pair.label_of_other, pair.kind});
+  i.set_excluded(pair, excluded);
 }
 
 const Report& World::detect() {

@@ -84,9 +84,15 @@ struct World::Implementation {
 
   // What the next call together has to tell.
   struct Exclusion {
-    std::uint64_t own = 0, other = 0;
+    ExcludedPair pair;
     bool wanted = false;
     bool marks = true;  // whether both bodies count as moved: not if one is removed
+    void put(ByteWriter& to) const { pair.put(to), to.put(wanted, marks); }
+    static Exclusion get(ByteReader& from) {
+      Exclusion one{.pair = ExcludedPair::get(from)};
+      one.wanted = from.get<bool>(), one.marks = from.get<bool>();
+      return one;
+    }
   };
   std::vector<std::uint64_t> new_keys, gone_keys;
   std::vector<Exclusion> exclusions;
@@ -118,7 +124,9 @@ struct World::Implementation {
   void hold_shared(BodyId id, std::uint64_t key, std::uint64_t hash);
   void note_change(OwnBody& body, bool has_moved);
   void forget_ghost(std::uint64_t key);
-  void exclude(std::uint64_t own_key, std::uint64_t other, bool wanted, bool marks);
+  void set_excluded(const ExcludedPair& pair, bool wanted);
+  void exclude(const ExcludedPair& pair, bool wanted, bool marks);
+  void exclude_here(const ExcludedPair& pair, bool wanted);
   template <class Set>
   void set(std::uint64_t key, const Set& set) {
     OwnBody& body = at(key);
@@ -146,7 +154,6 @@ struct World::Implementation {
   void take_updates(std::span<const Message> messages);
   void put_ghost(std::uint64_t key, int owner, std::span<const std::byte> shape, std::span<const std::byte> rest);
   void send_meshes();
-  void exclude_here(std::uint64_t key);
   void place_waiting();
   void find_owners_of_ended();
   void end_step();
@@ -171,7 +178,7 @@ struct World::Implementation {
   struct Arrival {
     std::uint64_t key = 0;
     OwnBody body;
-    std::vector<std::uint64_t> excluded;
+    std::vector<ExcludedPair> excluded;
     std::vector<SavedPair> pairs;
     std::vector<std::pair<KeyPair, int>> sent;
   };

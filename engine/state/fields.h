@@ -374,6 +374,7 @@ struct StateFields {
   static void take_bodies(std::span<const BodyId> gone, Bodies& bodies, Step& step);
   static void remove_copy(BodyId body, Bodies& bodies);
   static void exclude(BodyId a, BodyId b, bool excluded, Bodies& bodies);
+  static void exclude(const LabelPair& labels, bool excluded, Bodies& bodies);
   static void mark_moved(BodyId body, bool is_on_its_way, Bodies& bodies);
   static std::vector<SavedPair> pairs_of(std::span<const BodyId> those, const Bodies& bodies, Step& step);
   static std::vector<SavedPair> all_pairs(const Bodies& bodies, Step& step);

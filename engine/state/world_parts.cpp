@@ -111,6 +111,10 @@ void StateFields::exclude(BodyId a, BodyId b, bool excluded, Bodies& bodies) {
   excluded ? bodies.excluded_.add(pair) : bodies.excluded_.remove(pair);
 }
 
+void StateFields::exclude(const LabelPair& labels, bool excluded, Bodies& bodies) {
+  if (bodies.excluded_labels(labels) != excluded) bodies.excluded_labels_.set(labels, excluded);
+}
+
 void StateFields::mark_moved(BodyId id, bool is_on_its_way, Bodies& bodies) {
   bodies.mark_moved(id.index);
   Bodies::Slot& slot = bodies.slots_[id.index];
@@ -361,6 +365,7 @@ void WorldParts::mark_moved(BodyId body, bool is_on_its_way) {
   StateFields::mark_moved(body, is_on_its_way, bodies_);
 }
 void WorldParts::exclude(BodyId a, BodyId b, bool excluded) { StateFields::exclude(a, b, excluded, bodies_); }
+void WorldParts::exclude(const LabelPair& labels, bool excluded) { StateFields::exclude(labels, excluded, bodies_); }
 
 std::vector<SavedPair> WorldParts::pairs_of(std::span<const BodyId> bodies) const {
   bodies_.update_order();  // by which keys of removed bodies are found

@@ -86,8 +86,9 @@ class TACT_API WorldParts {
   void set_birth(BodyId body, std::uint64_t birth);
   /// Notes that a body has moved, and is on its way even if it is where it was.
   void mark_moved(BodyId body, bool is_on_its_way);
-  /// As World::set_excluded(), but that nothing has moved by that.
+  /// As World::set_excluded() and World::set_excluded_labels(), but that nothing has moved by that.
   void exclude(BodyId a, BodyId b, bool excluded);
+  void exclude(const LabelPair& labels, bool excluded);
 
   /// What is kept of each pair with one of these bodies.
   std::vector<SavedPair> pairs_of(std::span<const BodyId> bodies) const;

@@ -56,6 +56,13 @@ class Both {
     if (many.owns(key)) many.set_excluded(key, other, excluded);
     if (one_ != nullptr) one_->set_excluded(ids_.at(key), ids_.at(other), excluded);
   }
+  // Whoever owns the first body says so, or, if `by_second`, the other's owner.
+  void exclude(const mpi::LabelPair& labels, bool excluded, bool by_second) {
+    if (many.owns(by_second ? labels.key_b : labels.key_a)) many.set_excluded_labels(labels, excluded);
+    if (one_ == nullptr) return;
+    one_->set_excluded_labels(
+        {ids_.at(labels.key_a), labels.label_a, ids_.at(labels.key_b), labels.label_b, labels.kind}, excluded);
+  }
 
   void detect() {
     const mpi::Report& report = many.detect();

@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/hash.h"
+#include "tests/mpi/blobs.h"
 #include "tests/mpi/one_and_many.h"
 #include "tests/support/environment/allocation_hook.h"
 #include "tests/support/generators/bodies.h"
@@ -36,46 +36,6 @@ struct Size {
 mpi::Settings all_outputs(mpi::Partitioner partitioner = mpi::Partitioner::rcb) {
   return {.world = {.threads = 1, .outputs = {.zones = true, .patches = true, .points = true}},
           .partitioner = partitioner};
-}
-
-// Numbers that all ranks draw alike: from 0 to count - 1, and from 0 to 1.
-int drawn(std::uint64_t seed, std::uint64_t a, std::uint64_t b, int count) {
-  return static_cast<int>(word_of(seed, a, {b}) % static_cast<std::uint64_t>(count));
-}
-double fraction(std::uint64_t seed, std::uint64_t a, std::uint64_t b) {
-  return static_cast<double>(word_of(seed, a, {b}) >> 11) * 0x1p-53;
-}
-
-// Keys in another order than places.
-Key key_of(int i) { return base::mixed(static_cast<std::uint64_t>(i) + 1) >> 1; }
-
-// A blob that wanders about its place in a block of bodies.
-Mesh blob_at(int i, int step, int across) {
-  const auto n = static_cast<std::uint64_t>(i), t = static_cast<std::uint64_t>(step);
-  const Vec3 place{1.55 * (i % across), 1.55 * ((i / across) % across), 1.5 * (i / (across * across)) + 0.9};
-  Vec3 by{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::uint64_t seed = n * 3 + static_cast<std::uint64_t>(axis);
-    const double from = fraction(seed, t / 8, 1), to = fraction(seed, t / 8 + 1, 1);
-    by[axis] = 0.5 * (from + (to - from) * static_cast<double>(t % 8) / 8.0);
-  }
-  static const std::vector<Mesh> kShapes = [] {
-    std::vector<Mesh> shapes;
-    for (std::uint64_t seed = 0; seed < 7; ++seed) shapes.push_back(blob(1, 0.8, 0.3, seed));
-    return shapes;
-  }();
-  return translated(scaled(kShapes[n % 7], 1.0 + 0.1 * fraction(n, t / 4, 2)), place + by);
-}
-
-int across_of(int bodies) {
-  int across = 2;
-  while (across * across * across < bodies) ++across;
-  return across;
-}
-
-// Holds a copy of the mesh.
-BodyDefinition definition_of(Mesh mesh, Key key, double margin) {
-  return {.positions = std::move(mesh.positions), .facets = std::move(mesh.facets), .key = key, .margin = margin};
 }
 
 using Owner = std::function<int(int body)>;
@@ -155,22 +115,6 @@ void emptied(Size size) {
     for (const Key key : both.many.bodies()) both.many.set_owner(key, step % 4 < 2 ? 0 : count_of_ranks() - 1);
     both.many.move_bodies();
   });
-}
-
-// A blob, or its vertices as a rope or as grains.
-BodyDefinition some_body(int i, int step, int across) {
-  BodyDefinition definition = definition_of(blob_at(i, step, across), key_of(i), 0.05);
-  static const std::vector<std::array<int, 2>> kChain = [] {
-    std::vector<std::array<int, 2>> edges;
-    for (int v = 0; v + 1 < 42; ++v) edges.push_back({v, v + 1});
-    return edges;
-  }();
-  static const std::array<int, 5> kGrains{0, 7, 11, 23, 41};
-  if (i % 8 == 3) definition.edges = Edges::strided(kChain.front().data(), kChain.size());
-  if (i % 8 == 5) definition.points = kGrains;
-  if (i % 8 == 3 || i % 8 == 5) definition.facets = Facets::none();
-  definition.self_contact = i % 9 == 0;
-  return definition;
 }
 
 // How many vertices a body has more than its blob; a body that is not there is not among them.
@@ -256,10 +200,23 @@ void run_churn(const std::string& name, Size size, const BeforeDetect& before) {
           world.set_feature_settings(body, {.vertex_labels = masks, .vertex_masks = masks, .margins = margins});
           world.set_self_contact_filter(body, {.rings = drawn(30, n, t, 3)});
         }
+        if (drawn(31, n, t, 8) == 0) {
+          const auto label = static_cast<std::uint32_t>(drawn(32, n, t, 3));
+          const std::vector<std::uint32_t> labels(static_cast<std::size_t>(positions.cols()), label);
+          world.set_feature_settings(body, {.vertex_labels = labels});
+        }
       });
       const int other = drawn(21, n, t, size.bodies);
       if (drawn(22, n, t, 6) == 0 && other != i && there.contains(other))
         both.exclude(key_of(i), key_of(other), drawn(23, n, t, 3) != 0);
+      if (drawn(33, n, t, 3) == 0 && there.contains(other)) {
+        const mpi::LabelPair labels{.key_a = key_of(i),
+                                    .label_a = 1u + static_cast<std::uint32_t>(drawn(34, n, t, 2)),
+                                    .key_b = key_of(other),
+                                    .label_b = 1u + static_cast<std::uint32_t>(drawn(35, n, t, 2)),
+                                    .kind = LabelKind::vertex};
+        both.exclude(labels, drawn(36, n, t, 4) != 0, drawn(37, n, t, 2) != 0);
+      }
     }
     before(both, step, there);
     if (step % 4 == 1) both.detect_motion(Impacts::all);
@@ -297,6 +254,42 @@ void reused_slots(Size) {
   });
   both.detect_motion(Impacts::all);
   both.detect();
+}
+
+// Two bodies of two owners: no box moves, only labels, what is excluded of them, and who owns whom.
+void excluded_labels(Size) {
+  Both both("excluded labels", all_outputs());
+  const Mesh cube = box({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});
+  const int last = count_of_ranks() - 1;
+  both.add(definition_of(cube, 1, 0.01), 0);
+  both.add(definition_of(translated(cube, {2.0, 0.1, 0.2}), 2, 0.01), last);
+  both.detect();
+  both.on_owner(2, [&](auto& world, auto body) {
+    world.set_positions(body, translated(cube, {0.5, 0.1, 0.2}).positions);
+  });
+  both.detect_motion(Impacts::all);
+  const auto label = [&](Key key, std::uint32_t number) {
+    const std::vector<std::uint32_t> labels(static_cast<std::size_t>(cube.facets.cols()), number);
+    both.on_owner(key, [&](auto& world, auto body) { world.set_feature_settings(body, {.facet_labels = labels}); });
+    both.detect();
+  };
+  label(1, 7), label(2, 5);
+  for (int k = 0; k < 4; ++k) {
+    const Key other = k % 2 == 0 ? 1 : 2;
+    both.exclude({.key_a = 1, .label_a = 7, .key_b = 2, .label_b = 5}, true, k % 2 == 0);
+    both.detect();
+    label(other, 9);
+    both.save();
+    label(other, other == 1 ? 7 : 5);
+    both.restore(Both::Shares::in_turn, k);
+    both.detect();
+    label(other, other == 1 ? 7 : 5);
+    for (const Key key : both.many.bodies()) both.many.set_owner(key, (rank_of_all() + 1) % count_of_ranks());
+    both.many.move_bodies();
+    both.detect();
+    both.exclude({.key_a = 2, .label_a = 5, .key_b = 1, .label_b = 7}, false, k % 2 == 0);
+    both.detect();
+  }
 }
 
 // States are saved amid all that, and gone back to, by other ranks than those that saved them.
@@ -450,6 +443,16 @@ void wrong_use(Size) {
   expect(found_on_the_way.starts_with("wrong_order"), "facets changed on the way");
   world.detect();
   expect(caught([&] { world.set_margin(4, 1.0); }).starts_with("stale_body"), "a body that is nowhere was set");
+  const Key own = 5 + static_cast<Key>(rank_of_all());
+  const auto excluding = [&](const mpi::LabelPair& labels) {
+    return caught([&] { world.set_excluded_labels(labels, true); });
+  };
+  expect(excluding({.key_a = own, .label_a = 1, .key_b = own}).starts_with("invalid_argument"), "a label 0");
+  expect(excluding({.key_a = 3, .label_a = 1, .key_b = 4, .label_b = 1}).starts_with("stale_body"), "labels of nobody");
+  world.add_plane({.key = 98});
+  expect(excluding({.key_a = 98, .label_a = 1, .key_b = own, .label_b = 1}).starts_with("invalid_argument"),
+         "labels of a plane");
+  world.remove_body(98);
   if (count_of_ranks() == 1) return;
   if (rank_of_all() == 1) world.add_body(definition_of(mesh, 99, 0.0));
   world.detect();
@@ -518,6 +521,7 @@ constexpr Case kCases[] = {{"pile", pile},
                            {"emptied", emptied},
                            {"churn", churn},
                            {"reused_slots", reused_slots},
+                           {"excluded_labels", excluded_labels},
                            {"restored", restored},
                            {"cloth", cloth},
                            {"failures", failures_of_one},

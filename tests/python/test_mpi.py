@@ -51,6 +51,24 @@ except RuntimeError as error: sys.stdout.write(f"{'no bytes for you' in str(erro
     assert run(2, "-c", program).split() == ["True"] * 4
 
 
+def test_excluded_labels_of_two_ranks():
+    program = """
+from mpi4py import MPI
+import sys, tact, tact.mpi
+world = tact.mpi.World(MPI.COMM_WORLD)
+corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+if world.rank == 1: corners = [[0.2, 0.2, -1], [0.2, 0.2, 1], [0.2, 1, 0]]
+world.add_body(corners, [[0, 1, 2]], key=world.rank, surface=tact.Surface.sheet)
+world.set_feature_settings(world.rank, facet_labels=[4])
+found = [any(contact.touching for contact in world.detect().contacts)]
+for excluded in [True, False]:
+    if world.rank == 0: world.set_excluded_labels(0, 4, 1, 4, excluded)
+    found.append(any(contact.touching for contact in world.detect().contacts))
+sys.stdout.write(f"{found == [True, False, True]}\\n")
+"""
+    assert run(2, "-c", program).split() == ["True"] * 2
+
+
 def names_in(body):
     return {node.name for node in body if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and node.name[0] != "_"}
 

@@ -244,6 +244,14 @@ void define_bodies(WorldClass& world) {
           },
           py::arg("key"), py::arg("other"), py::arg("excluded"), "one rank that owns one of them says so")
       .def(
+          "set_excluded_labels",
+          [](RankWorld& w, std::uint64_t a, std::uint32_t label_a, std::uint64_t b, std::uint32_t label_b,
+             bool excluded, LabelKind kind) {
+            w.use().set_excluded_labels({a, label_a, b, label_b, kind}, excluded);
+          },
+          py::arg("a"), py::arg("label_a"), py::arg("b"), py::arg("label_b"), py::arg("excluded"), py::kw_only(),
+          py::arg("kind") = LabelKind::facet, "one rank that owns one of them says so")
+      .def(
           "owns", [](RankWorld& w, std::uint64_t key) { return w.read().owns(key); }, py::arg("key"))
       .def_property_readonly(
           "bodies", [](RankWorld& w) { return w.read().bodies(); }, "the keys of the bodies of this rank, ascending")

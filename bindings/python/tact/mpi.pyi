@@ -13,6 +13,7 @@ from . import (
     FeaturePair,
     Impacts,
     IntersectionCurve,
+    LabelKind,
     Motion,
     Patch,
     PatchEventKind,
@@ -235,6 +236,9 @@ class World:
         rest_positions: npt.ArrayLike | None = ...,
     ) -> None: ...
     def set_excluded(self, key: int, other: int, excluded: bool) -> None: ...
+    def set_excluded_labels(
+        self, a: int, label_a: int, b: int, label_b: int, excluded: bool, *, kind: LabelKind = ...
+    ) -> None: ...
     def detect(self) -> Report:
         """Together."""
     def detect_motion(self, wanted: Impacts = ...) -> MotionReport:

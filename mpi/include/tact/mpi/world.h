@@ -47,6 +47,15 @@ struct PoseUpdate {
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();   ///< metres
 };
 
+/// A label of one body and a label of another, or of the same, for World::set_excluded_labels().
+struct LabelPair {
+  std::uint64_t key_a = 0;            ///< a body
+  std::uint32_t label_a = 0;          ///< a label of it, not 0
+  std::uint64_t key_b = 0;            ///< another body, or the same
+  std::uint32_t label_b = 0;          ///< a label of that, not 0
+  LabelKind kind = LabelKind::facet;  ///< what has the labels
+};
+
 /// State of the program's own that moves with a body. All three are given or none. They may throw, but for `drop`.
 struct BodyState {
   std::function<std::vector<std::byte>(std::uint64_t key)> pack;                    ///< on the old owner
@@ -115,6 +124,9 @@ class TACT_API World {
   /// Sets whether two bodies are excluded from tests. One rank that owns one of them says so; the other owner learns it
   /// in the next call together. Errors: also stale_body, then, if nobody owns the other.
   void set_excluded(std::uint64_t key, std::uint64_t other, bool excluded);
+  /// Sets whether features of two labels are excluded from tests. Who says so and who learns it as above. Errors: as
+  /// above.
+  void set_excluded_labels(const LabelPair& labels, bool excluded);
 
   /// Takes one step, together. Errors: out_of_memory, backend_failure; bodies stay, and the next step starts from
   /// scratch. invalid_argument: two ranks own bodies of one key.
