@@ -113,18 +113,29 @@ void Renumbering::add_vertices(const PatchSet& patches, Sides sides, std::vector
   std::ranges::sort(to);
 }
 
+// In the memory of the step before, which no one reads between steps: new memory of many points takes as long as they
+// do.
+template <class Record>
+std::vector<ContactPoint> Renumbering::renumbered(Record& record, Sides sides) const {
+  std::vector<ContactPoint> made;
+  if (!record.is_renumbered) made.swap(record.last_points);
+  made.clear();
+  add_points(record.is_renumbered ? record.last_points : record.points, sides, made);
+  return made;
+}
+
 void Renumbering::add(PairRecord& record) {
   const Sides sides{record.a == change_.id, record.b == change_.id};
   OfRecord& made = records_.emplace_back();
   made.pair = &record;
-  if (in_contact(record)) add_points(record.is_renumbered ? record.last_points : record.points, sides, made.points);
+  if (in_contact(record)) made.points = renumbered(record, sides);
   if (record.patches != nullptr) add_vertices(record.patches->now, sides, made.vertices);
 }
 
 void Renumbering::add(SelfRecord& record) {
   OfRecord& made = records_.emplace_back();
   made.self = &record;
-  add_points(record.is_renumbered ? record.last_points : record.points, {true, true}, made.points);
+  made.points = renumbered(record, {true, true});
   add_vertices(record.patches.now, {true, true}, made.vertices);
 }
 

@@ -32,6 +32,8 @@ class Renumbering {
     std::vector<ContactPoint> points;
     std::vector<PatchVertex> vertices;
   };
+  template <class Record>
+  std::vector<ContactPoint> renumbered(Record& record, Sides sides) const;
   void add_points(const std::vector<ContactPoint>& points, Sides sides, std::vector<ContactPoint>& to) const;
   void add_vertices(const PatchSet& patches, Sides sides, std::vector<PatchVertex>& to) const;
 

@@ -1,52 +1,95 @@
 #include "narrowphase/mesh/features.h"
 
 #include <algorithm>
-#include <memory>
+#include <bit>
 #include <numeric>
 #include <utility>
 
+#include "engine/base/hash.h"
 #include "narrowphase/mesh/prefetch.h"
 
 namespace tact::narrowphase {
 
 namespace {
 
-// Numbers edges in the order in which they come. Each stands with its vertex of fewer sides, where it is looked for one
-// by one: where thousands of facets meet in a vertex, the others have few each.
+constexpr int kNoEdge = -1;
+
+// Numbers edges in the order in which they come, cluster by cluster. An edge with a vertex that its cluster owns is in
+// no cluster before: it is looked for in its cluster alone, of which all is in the cache. The others stand in a table
+// of all edges that several clusters may have.
 class EdgeTable {
  public:
-  EdgeTable(const std::vector<Corners>& corners, int vertices)
-      : sides_(static_cast<std::size_t>(vertices), 0), end_(static_cast<std::size_t>(vertices)) {
-    for (const Corners& c : corners) {
-      for (const int v : c) sides_[v] += 2;
-    }
-    int room = 0;
-    for (std::size_t v = 0; v < sides_.size(); ++v) end_[v] = std::exchange(room, room + sides_[v]);
-    begin_ = end_;
-    entries_.reset(new Entry[static_cast<std::size_t>(room)]);  // each is set before it is read
+  explicit EdgeTable(const ClusteredMesh& mesh) : is_shared_(static_cast<std::size_t>(mesh.vertex_count()), 0) {
+    const std::span borrowed(mesh.borrowed_vertices(), static_cast<std::size_t>(mesh.counts().borrowed));
+    for (const int v : borrowed) is_shared_[v] = 1;
+    shared_heads_.assign(std::bit_ceil(borrowed.size() + 1), kNoEdge);
   }
 
-  // Of two vertices; count() before, if there was none.
+  void begin(const ClusterFacets& cluster) {
+    first_ = cluster.owned_begin;
+    std::fill_n(heads_.begin(), cluster.owned_count, kNoEdge);
+    here_count_ = 0;
+  }
+  // Of two vertices of the cluster; count() before, if there was none.
   int edge_of(int u, int v) {
-    if (std::pair(sides_[v], v) < std::pair(sides_[u], u)) std::swap(u, v);
-    Entry *const first = &entries_[begin_[u]], *const last = &entries_[end_[u]];
-    for (const Entry* entry = first; entry != last; ++entry) {
-      if (entry->other == v) return entry->edge;
+    if (u < v) std::swap(u, v);  // u is owned, if any of them is
+    if (u < first_) return shared_edge_of(u, v);
+    int& head = heads_[static_cast<std::size_t>(u - first_)];
+    for (int at = head; at != kNoEdge; at = here_[at].next) {
+      if (here_[at].other == v) return here_[at].edge;
     }
-    *last = {v, count_};
-    ++end_[u];
+    here_[here_count_] = {v, count_, head};
+    head = here_count_++;
+    if (is_shared_[u] != 0 && is_shared_[v] != 0) add_shared(u, v);
     return count_++;
   }
   int count() const { return count_; }
 
  private:
-  struct Entry {
-    int other, edge;
+  struct Here {
+    int other, edge, next;
   };
-  std::vector<int> sides_, end_, begin_;  // of each vertex
-  std::unique_ptr<Entry[]> entries_;
-  int count_ = 0;
+  struct Shared {
+    int u, v, edge, next;
+  };
+  int& shared_head(int u, int v) {
+    const auto word = [](int vertex) { return static_cast<std::uint64_t>(vertex); };
+    return shared_heads_[base::mixed(word(u) << 32 | word(v)) & (shared_heads_.size() - 1)];
+  }
+  int shared_edge_of(int u, int v) {
+    for (int at = shared_head(u, v); at != kNoEdge; at = shared_[at].next) {
+      if (shared_[at].u == u && shared_[at].v == v) return shared_[at].edge;
+    }
+    add_shared(u, v);
+    return count_++;
+  }
+  void add_shared(int u, int v) {
+    int& head = shared_head(u, v);
+    shared_.push_back({u, v, count_, head});
+    head = static_cast<int>(shared_.size()) - 1;
+  }
+
+  static constexpr std::size_t kMostSides = 3 * kClusterSize;  // of a cluster, and as many vertices
+  std::array<int, kMostSides> heads_;                          // of the vertices that the cluster owns
+  std::array<Here, kMostSides> here_;                          // each is set before it is read
+  int first_ = 0, here_count_ = 0, count_ = 0;
+  std::vector<char> is_shared_;  // of each vertex: whether a later cluster borrows it
+  std::vector<int> shared_heads_;
+  std::vector<Shared> shared_;
 };
+
+// Lists the numbers of each key, in the order in which for_each(visit) calls visit(key, number), twice.
+template <class ForEach>
+void list_by_key(std::size_t keys, const ForEach& for_each, std::vector<int>& begin, std::vector<int>& numbers) {
+  begin.assign(keys + 2, 0);
+  int* const ends = begin.data() + 1;  // where each list begins; once it is filled, where it ends
+  for_each([&](int key, int) { ++ends[key + 1]; });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  numbers.resize(static_cast<std::size_t>(begin.back()));
+  int* const to = numbers.data();
+  for_each([&](int key, int number) { to[ends[key]++] = number; });
+  begin.pop_back();
+}
 
 }  // namespace
 
@@ -78,16 +121,18 @@ void Features::find_corners(const ClusteredMesh& mesh) {
 }
 
 void Features::find_edges(const ClusteredMesh& mesh) {
-  EdgeTable table(corners_, mesh.vertex_count());
+  EdgeTable table(mesh);
   facet_edges_.resize(3 * corners_.size());
   edge_begin_.assign(1, 0);
+  int* edge = facet_edges_.data();
   for (int c = 0; c < mesh.cluster_count(); ++c) {
-    for (int f = mesh.facet_begin(c); f < mesh.facet_end(c); ++f) {
-      const Corners& corners = corners_[f];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const int from = corners[k], to = corners[(k + 1) % 3];
-        facet_edges_[3 * static_cast<std::size_t>(f) + k] = from == to ? -1 : table.edge_of(from, to);
-      }
+    const ClusterFacets cluster = mesh.facets_of(c);
+    table.begin(cluster);
+    for (int i = 0; i < cluster.facet_count; ++i) {
+      const Corners& v = corners_[static_cast<std::size_t>(cluster.facet_begin + i)];
+      *edge++ = v[0] == v[1] ? kNoEdge : table.edge_of(v[0], v[1]);
+      *edge++ = v[1] == v[2] ? kNoEdge : table.edge_of(v[1], v[2]);
+      *edge++ = v[2] == v[0] ? kNoEdge : table.edge_of(v[2], v[0]);
     }
     edge_begin_.push_back(table.count());
   }
@@ -100,7 +145,6 @@ void Features::find_ends(const ClusteredMesh& mesh, int count) {
   const auto edges = static_cast<std::size_t>(count);
   edges_.resize(edges);
   first_facet_of_edge_.resize(edges);
-  opposite_begin_.assign(edges + 1, 0);
   for (auto& corners : edge_corner_) corners.resize(edges + 64);
   std::vector<int> balances(edges, 0);  // of each edge: facets along it, less those that go the other way
   int known = 0;
@@ -108,13 +152,13 @@ void Features::find_ends(const ClusteredMesh& mesh, int count) {
     const ClusterFacets cluster = mesh.facets_of(c);
     for (int i = 0; i < cluster.facet_count; ++i) {
       const auto facet = static_cast<std::size_t>(cluster.facet_begin + i);
-      const Corners& corners = corners_[facet];
+      const Corners corners = corners_[facet];
       for (std::size_t k = 0; k < 3; ++k) {
         const int edge = facet_edges_[3 * facet + k];
         if (edge < 0) continue;
         if (edge == known) {
           ++known;
-          std::size_t from = k, to = (k + 1) % 3;
+          std::size_t from = k, to = k == 2 ? 0 : k + 1;
           if (mesh.source_vertex(corners[to]) < mesh.source_vertex(corners[from])) std::swap(from, to);
           edges_[edge] = {corners[from], corners[to]};
           edge_corner_[0][edge] = cluster.corner[from][i];
@@ -122,7 +166,6 @@ void Features::find_ends(const ClusteredMesh& mesh, int count) {
           first_facet_of_edge_[edge] = static_cast<int>(facet);
         }
         balances[edge] += corners[k] == edges_[edge][0] ? 1 : -1;
-        ++opposite_begin_[static_cast<std::size_t>(edge) + 1];
       }
     }
   }
@@ -131,67 +174,54 @@ void Features::find_ends(const ClusteredMesh& mesh, int count) {
 
 // In the order of the facets.
 void Features::find_opposite() {
-  for (std::size_t e = 1; e < opposite_begin_.size(); ++e) opposite_begin_[e] += opposite_begin_[e - 1];
-  opposite_.resize(static_cast<std::size_t>(opposite_begin_.back()));
-  std::vector<int> next(opposite_begin_.begin(), opposite_begin_.end() - 1);
-  for (std::size_t f = 0; f < corners_.size(); ++f) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (const int edge = facet_edges_[3 * f + k]; edge >= 0) opposite_[next[edge]++] = corners_[f][(k + 2) % 3];
+  const auto for_each_side = [&](const auto& visit) {
+    const int* edge = facet_edges_.data();
+    for (const Corners& c : corners_) {
+      if (edge[0] >= 0) visit(edge[0], c[2]);
+      if (edge[1] >= 0) visit(edge[1], c[0]);
+      if (edge[2] >= 0) visit(edge[2], c[1]);
+      edge += 3;
     }
-  }
+  };
+  list_by_key(edges_.size(), for_each_side, opposite_begin_, opposite_);
 }
 
+// In the order of the edges.
 void Features::find_neighbors(const ClusteredMesh& mesh) {
-  const auto vertices = static_cast<std::size_t>(mesh.vertex_count());
-  first_facet_of_vertex_.assign(vertices, -1);
-  for (int f = mesh.facet_count() - 1; f >= 0; --f) {
-    for (const int v : corners_[f]) first_facet_of_vertex_[v] = f;
-  }
-  neighbors_begin_.assign(vertices + 1, 0);
-  for (const EdgeVertices& edge : edges_) {
-    for (const int v : edge) ++neighbors_begin_[static_cast<std::size_t>(v) + 1];
-  }
-  for (std::size_t v = 0; v < vertices; ++v) neighbors_begin_[v + 1] += neighbors_begin_[v];
-  neighbors_.resize(2 * edges_.size());
-  std::vector<int> next(neighbors_begin_.begin(), neighbors_begin_.end() - 1);
-  for (const auto& [v, w] : edges_) {
-    neighbors_[next[v]++] = w;
-    neighbors_[next[w]++] = v;
-  }
+  const auto for_each_end = [&](const auto& visit) {
+    for (const auto& [v, w] : edges_) visit(v, w), visit(w, v);
+  };
+  list_by_key(static_cast<std::size_t>(mesh.vertex_count()), for_each_end, neighbors_begin_, neighbors_);
 }
 
 // A facet that names a vertex twice is at it once.
 void Features::find_facets_at(const ClusteredMesh& mesh) {
-  facets_begin_.assign(static_cast<std::size_t>(mesh.vertex_count()) + 1, 0);
   const auto for_each_corner = [&](const auto& visit) {
-    for (int f = 0; f < mesh.facet_count(); ++f) {
-      const Corners& c = corners_[f];
+    int f = 0;
+    for (const Corners& c : corners_) {
       visit(c[0], f);
       if (c[1] != c[0]) visit(c[1], f);
       if (c[2] != c[0] && c[2] != c[1]) visit(c[2], f);
+      ++f;
     }
   };
-  for_each_corner([&](int vertex, int) { ++facets_begin_[static_cast<std::size_t>(vertex) + 1]; });
-  for (std::size_t v = 1; v < facets_begin_.size(); ++v) facets_begin_[v] += facets_begin_[v - 1];
-  facets_.resize(static_cast<std::size_t>(facets_begin_.back()));
-  std::vector<int> next(facets_begin_.begin(), facets_begin_.end() - 1);
-  for_each_corner([&](int vertex, int f) { facets_[static_cast<std::size_t>(next[vertex]++)] = f; });
+  list_by_key(static_cast<std::size_t>(mesh.vertex_count()), for_each_corner, facets_begin_, facets_);
+  first_facet_of_vertex_.reserve(static_cast<std::size_t>(mesh.vertex_count()));
+  for (int v = 0; v < mesh.vertex_count(); ++v) first_facet_of_vertex_.push_back(facets_[facets_begin_[v]]);
 }
 
 // In the order of the caller's numbers: a point in an edge or a vertex that has no direction of its own takes the
 // normal of this facet, whatever the clusters.
 void Features::find_firsts(const ClusteredMesh& mesh) {
-  std::vector<char> edge_is_told(edges_.size(), 0), vertex_is_told(first_facet_of_vertex_.size(), 0);
-  const auto tell = [](char& is_told) { return std::exchange(is_told, 1) == 0; };
-  firsts_of_facet_.assign(mesh.facet_count(), 0);
+  std::vector<char> edge_is_told(edges_.size(), 0), vertex_is_told(static_cast<std::size_t>(mesh.vertex_count()), 0);
+  firsts_of_facet_.assign(corners_.size(), 0);
   for (int source = 0; source < mesh.facet_count(); ++source) {
-    const int f = mesh.facet_of_source(source);
-    const Corners& corners = corners_[f];
+    const auto f = static_cast<std::size_t>(mesh.facet_of_source(source));
     unsigned firsts = 0;
-    for (int k = 0; k < 3; ++k) {
-      const int edge = facet_edge(f, k);
-      if (edge >= 0 && tell(edge_is_told[edge])) firsts |= 1u << k;
-      if (tell(vertex_is_told[corners[k]])) firsts |= 8u << k;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int edge = facet_edges_[3 * f + k], vertex = corners_[f][k];
+      if (edge >= 0 && std::exchange(edge_is_told[edge], 1) == 0) firsts |= 1u << k;
+      if (std::exchange(vertex_is_told[vertex], 1) == 0) firsts |= 8u << k;
     }
     firsts_of_facet_[f] = static_cast<std::uint8_t>(firsts);
   }
@@ -200,9 +230,9 @@ void Features::find_firsts(const ClusteredMesh& mesh) {
 void Features::find_repeated(const ClusteredMesh& mesh) {
   // Facets with the same vertices share their edges, with one third vertex. Few meshes have such edges.
   bool may_repeat = false;
-  for (int edge = 0; edge < edge_count() && !may_repeat; ++edge) {
-    const std::span<const int> third = opposite(edge);
-    may_repeat = third.size() > 2 || (third.size() == 2 && third[0] == third[1]);
+  for (std::size_t edge = 0; edge < edges_.size() && !may_repeat; ++edge) {
+    const int first = opposite_begin_[edge], third_count = opposite_begin_[edge + 1] - first;
+    may_repeat = third_count > 2 || (third_count == 2 && opposite_[first] == opposite_[first + 1]);
   }
   const auto is_one_vertex = [](const Corners& c) { return c[0] == c[1] && c[0] == c[2]; };  // which has no edge
   if (!may_repeat && std::ranges::none_of(corners_, is_one_vertex)) return;
@@ -229,13 +259,14 @@ void Features::mark_repeated(const ClusteredMesh& mesh, std::vector<std::pair<Co
 // Each vertex leads to one of its part that is not above it, in the end to the first (Tarjan, "Efficiency of a good but
 // not linear set union algorithm", 1975).
 void Features::find_parts() {
-  std::vector<int> leads_to(first_facet_of_vertex_.size());
+  std::vector<int> leads_to(facets_begin_.size() - 1);
   std::iota(leads_to.begin(), leads_to.end(), 0);
   const auto first_of = [&](int v) {
     while (leads_to[v] != v) v = leads_to[v] = leads_to[leads_to[v]];
     return v;
   };
   for (const auto& [v, w] : edges_) {
+    if (leads_to[v] == leads_to[w]) continue;
     const auto [low, high] = std::minmax({first_of(v), first_of(w)});
     leads_to[high] = low;
   }

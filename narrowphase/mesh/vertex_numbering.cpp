@@ -14,21 +14,21 @@ constexpr int kNoNumber = -1;
 class Numberer {
  public:
   Numberer(std::span<const int> facets, std::span<const int> order, int source_vertex_count)
-      : facets_(facets),
-        order_(order),
-        number_(static_cast<std::size_t>(source_vertex_count), kNoNumber),
-        last_user_(number_.size(), kNoNumber),
-        place_(number_.size(), 0) {
-    for (auto& corner : made_.corner) corner.reserve(order.size());
+      : facets_(facets), order_(order), sources_(static_cast<std::size_t>(source_vertex_count)) {
+    made_.source_vertices.reserve(sources_.size());
+    for (auto& corner : made_.corner) corner.resize(order.size());
   }
 
   VertexNumbering run() {
     int cluster = 0;
-    for (std::size_t begin = 0; begin < order_.size(); begin += kClusterSize, ++cluster)
-      add(cluster, order_.subspan(begin, std::min<std::size_t>(kClusterSize, order_.size() - begin)));
+    for (std::size_t begin = 0; begin < order_.size(); begin += kClusterSize, ++cluster) {
+      const auto facets = order_.subspan(begin, std::min<std::size_t>(kClusterSize, order_.size() - begin));
+      add(cluster, facets);
+      write_corners(begin, facets);
+    }
     made_.ranges.insert(made_.ranges.end(), {vertices(), borrowed()});
-    for (std::size_t s = 0; s < number_.size(); ++s) {
-      if (number_[s] == kNoNumber) made_.unused_sources.push_back(static_cast<int>(s));
+    for (std::size_t s = 0; s < sources_.size(); ++s) {
+      if (sources_[s].number == kNoNumber) made_.unused_sources.push_back(static_cast<int>(s));
     }
     return std::move(made_);
   }
@@ -36,30 +36,29 @@ class Numberer {
  private:
   int vertices() const { return static_cast<int>(made_.source_vertices.size()); }
   int borrowed() const { return static_cast<int>(made_.borrowed.size()); }
-  std::size_t source_of(int facet, std::size_t k) const {
-    return static_cast<std::size_t>(facets_[3 * static_cast<std::size_t>(facet) + k]);
-  }
+  const int* corners_of(int facet) const { return &facets_[3 * static_cast<std::size_t>(facet)]; }
 
   void add(int cluster, std::span<const int> cluster_facets) {
-    const int first = vertices(), first_borrowed = borrowed();
-    made_.ranges.insert(made_.ranges.end(), {first, first_borrowed});
+    made_.ranges.insert(made_.ranges.end(), {vertices(), borrowed()});
     find_sources(cluster, cluster_facets);
+    std::uint8_t place = 0;
     for (const int source : owned_here_) {
-      number_[source] = vertices();
+      sources_[source].number = vertices();
+      sources_[source].place = place++;
       made_.source_vertices.push_back(source);
     }
     for (const int source : borrowed_here_) {
-      place_[source] = borrowed() - first_borrowed;
-      made_.borrowed.push_back(number_[source]);
+      sources_[source].place = place++;
+      made_.borrowed.push_back(sources_[source].number);
       made_.borrowed_sources.push_back(source);
     }
-    const int owned = vertices() - first;
-    for (const int facet : cluster_facets) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t s = source_of(facet, k);
-        const int local = number_[s] < first ? owned + place_[s] : number_[s] - first;
-        made_.corner[k].push_back(static_cast<std::uint8_t>(local));
-      }
+  }
+
+  void write_corners(std::size_t first, std::span<const int> cluster_facets) {
+    std::uint8_t* const to[] = {&made_.corner[0][first], &made_.corner[1][first], &made_.corner[2][first]};
+    for (std::size_t i = 0; i < cluster_facets.size(); ++i) {
+      const int* const corners = corners_of(cluster_facets[i]);
+      for (std::size_t k = 0; k < 3; ++k) to[k][i] = sources_[corners[k]].place;
     }
   }
 
@@ -68,21 +67,24 @@ class Numberer {
     owned_here_.clear();
     borrowed_here_.clear();
     for (const int facet : cluster_facets) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t s = source_of(facet, k);
-        if (last_user_[s] == cluster) continue;
-        last_user_[s] = cluster;
-        (number_[s] == kNoNumber ? owned_here_ : borrowed_here_).push_back(static_cast<int>(s));
+      for (const int source : std::span(corners_of(facet), 3)) {
+        Source& vertex = sources_[source];
+        if (vertex.last_user == cluster) continue;
+        vertex.last_user = cluster;
+        (vertex.number == kNoNumber ? owned_here_ : borrowed_here_).push_back(source);
       }
     }
     std::ranges::sort(owned_here_);
     std::ranges::sort(borrowed_here_);
   }
 
+  struct Source {
+    int number = kNoNumber, last_user = kNoNumber;
+    std::uint8_t place = 0;  // in its last user, whose borrowed vertices come last
+  };
   std::span<const int> facets_, order_;
   VertexNumbering made_;
-  std::vector<int> number_, last_user_,
-      place_;  // of source vertices; the place is among those that the last user borrows
+  std::vector<Source> sources_;
   std::vector<int> owned_here_, borrowed_here_;  // source vertices
 };
 
