@@ -3,7 +3,11 @@
 #include <tact/tact.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "tests/support/generators/bodies.h"
@@ -138,6 +142,58 @@ TEST(OpenSurfaces, HaveThePointsOfSheets) {
     for (std::size_t i = 0; i < points[0].size(); ++i) {
       EXPECT_EQ(points[0][i].id, points[1][i].id);
       EXPECT_EQ(points[0][i].gap, points[1][i].gap);
+    }
+  }
+}
+
+// Two arms of a bent bar near each other.
+Mesh horseshoe() {
+  return mapped(gridded_box({-1, 0, 0}, {1, 0.1, 0.1}, 6), [](Vec3 p) {
+    const double radius = 0.06 + p.z, turn = 0.5 * std::numbers::pi * (1.0 + p.x / 0.25);
+    if (std::abs(p.x) <= 0.25) return Vec3{radius * std::sin(turn), p.y, -radius * std::cos(turn)};
+    return Vec3{0.6 * (0.25 - std::abs(p.x)), p.y, p.x > 0.0 ? radius : -radius};
+  });
+}
+
+// Each point by its features, whatever the order of their vertices, and its gap.
+using Places = std::vector<std::tuple<FeaturePair, std::array<int, 3>, std::array<int, 3>, double>>;
+Places places_of(const Mesh& a, const Mesh& b) {
+  World world({.outputs = {.points = true}});
+  const auto add = [&](const Mesh& mesh, bool with_itself) {
+    return world.add_body(
+        {.positions = mesh.positions, .facets = mesh.facets, .margin = 0.08, .self_contact = with_itself});
+  };
+  add(a, true), add(b, false);
+  Places places;
+  for (const Contact& contact : world.detect().contacts()) {
+    for (const ContactPoint& point : contact.points()) {
+      auto& [kind, of_a, of_b, gap] = places.emplace_back(point.kind, point.a_vertices, point.b_vertices, point.gap);
+      std::ranges::sort(of_a), std::ranges::sort(of_b);
+    }
+  }
+  std::ranges::sort(places);
+  return places;
+}
+
+// A mirror turns facets inside out; turned back, all that is found is the image of what was.
+TEST(MirroredBodies, HaveTheImagesOfPoints) {
+  const auto image = [](const Mesh& mesh) {
+    return turned_inside_out(mapped(mesh, [](Vec3 p) { return Vec3{-p.x, p.y, p.z}; }));
+  };
+  const Mesh bar = jittered(horseshoe(), 0.001, 3);  // no two ways are equally long
+  const std::array<Mesh, 2> pairs[] = {
+      {bar, translated(icosphere(2, 0.07), {-0.2, 0.05, 0.13})},
+      {rotated(bar, rotation(0.9, 0.2, -0.3, 0.1)), translated(blob(2, 0.1, 0.3, 5), {0.05, 0.1, 0.1})},
+      {cube(2.0, {}), translated(icosphere(2, 0.5), {0.1, 0.05, 1.1})}};
+  for (const auto& [a, b] : pairs) {
+    const Places places = places_of(a, b), images = places_of(image(a), image(b));
+    EXPECT_GT(places.size(), 20u);
+    ASSERT_EQ(places.size(), images.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const auto& [kind, of_a, of_b, gap] = places[i];
+      const auto& [image_kind, image_of_a, image_of_b, image_gap] = images[i];
+      EXPECT_TRUE(kind == image_kind && of_a == image_of_a && of_b == image_of_b) << i;
+      EXPECT_NEAR(gap, image_gap, 1e-12);
     }
   }
 }
