@@ -41,7 +41,8 @@ build() {
   local log folder=build/cross/$1
   mkdir -p build/cross
   log=$(mktemp)
-  if ! cmake -S "$2" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release --toolchain "$toolchain" "${@:4}" > "$log" 2>&1; then
+  if ! cmake -S "$2" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DTACT_UNITY_BUILD=ON \
+      --toolchain "$toolchain" "${@:4}" > "$log" 2>&1; then
     cat "$log" >&2
     exit 1
   fi
@@ -61,25 +62,33 @@ run() {
   esac
 }
 
-# hashes NAME [OPTION...]
+# hashes NAME [OPTION...]: by the build of that name, of the library alone or, for tests, of everything that they need.
 hashes() {
-  build "$1" tests/engine/other_build hash_program "${@:2}"
+  local program=build/cross/$1/hash_program
+  if [[ $1 == *-tests ]]; then
+    build "$1" . hash_program -DTACT_BUILD_TESTS=ON "${@:2}"
+    program=build/cross/$1/tests/hash_program
+  else
+    build "$1" tests/engine/other_build hash_program "${@:2}"
+  fi
   echo "$1: hash_program"
-  run "build/cross/$1/hash_program" 1
+  run "$program" 1
   echo "$1: with two threads"
-  run "build/cross/$1/hash_program" 2 | tail -n 1
+  run "$program" 2 | tail -n 1
+  if [[ $platform == aarch64 ]]; then
+    echo "$1: the same without NEON"
+    TACT_INSTRUCTION_SET=scalar run "$program" 1 | tail -n 1
+  fi
 }
 
-hashes "$platform"
-case $platform in
-  aarch64)
-    echo "aarch64: the same without NEON"
-    TACT_INSTRUCTION_SET=scalar run build/cross/aarch64/hash_program 1 | tail -n 1
-    ;;
-  windows)
-    hashes windows-dll -DBUILD_SHARED_LIBS=ON
-    ;;
-esac
+name=$platform
+if [[ $wanted == tests && $platform =~ ^(aarch64|windows)$ ]]; then
+  name=$platform-tests
+fi
+hashes "$name"
+if [[ $platform == windows ]]; then
+  hashes windows-dll -DBUILD_SHARED_LIBS=ON
+fi
 [[ $wanted == tests ]] || exit 0
 
 if [[ $platform == wasm ]]; then
@@ -90,11 +99,11 @@ if [[ $platform == libcxx ]]; then
   exit 2
 fi
 folders=(base broadphase narrowphase engine c)
-build "$platform-tests" . "${folders[*]/#/test_}" -DTACT_BUILD_TESTS=ON
+build "$name" . "${folders[*]/#/test_}"
 failed=()
 for folder in "${folders[@]}"; do
   echo "$platform: the tests of $folder"
-  run "build/cross/$platform-tests/tests/test_$folder" --gtest_brief=1 || failed+=("$folder")
+  run "build/cross/$name/tests/test_$folder" --gtest_brief=1 || failed+=("$folder")
 done
 if (( ${#failed[@]} > 0 )); then
   echo "$platform: tests fail in ${failed[*]}" >&2

@@ -33,7 +33,7 @@ build=build/cross/wasm
 if command -v ccache > /dev/null; then
   export CMAKE_CXX_COMPILER_LAUNCHER=ccache
 fi
-[[ -f $build/build.ninja ]] || cmake -S tests/engine/other_build -B $build -G Ninja -DCMAKE_BUILD_TYPE=Release \
+[[ -f $build/build.ninja ]] || cmake -S tests/engine/other_build -B $build -G Ninja -DCMAKE_BUILD_TYPE=Release -DTACT_UNITY_BUILD=ON \
   --toolchain "$PWD/cmake/platforms/wasm.cmake" > /dev/null
 cmake --build $build --target tact_js_package
 [[ $1 != package ]] || exit 0

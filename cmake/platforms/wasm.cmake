@@ -7,6 +7,8 @@ set(CMAKE_CXX_FLAGS_INIT "-msimd128 -fwasm-exceptions")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-sALLOW_MEMORY_GROWTH")
 # This emscripten would fetch a file as from a server where node has fetch().
 set(CMAKE_CROSSCOMPILING_EMULATOR node --no-experimental-fetch)
+# Debian's packages of node, which emscripten uses, also for a node that is not Debian's.
+set(CMAKE_CXX_LINKER_LAUNCHER env NODE_PATH=/usr/share/nodejs)
 # Debian's headers without a library; nothing else of the machine that builds.
 set(Eigen3_DIR /usr/share/eigen3/cmake CACHE PATH "")
 foreach(package EMBREE OPENMP MPI)
