@@ -383,18 +383,6 @@ void Bodies::find_kdops(int threads) {
   kdops_.clear_missing();
 }
 
-void Bodies::make_features(std::span<const std::uint32_t> slots, int threads) {
-  without_features_.clear();
-  std::ranges::copy_if(slots, std::back_inserter(without_features_),
-                       [&](std::uint32_t slot) { return in_slot(slot).features == nullptr; });
-  std::ranges::sort(without_features_);
-  without_features_.erase(std::unique(without_features_.begin(), without_features_.end()), without_features_.end());
-  base::parallel_for(without_features_.size(), 1, threads, [&](std::size_t i) {
-    Body& body = *slots_[without_features_[i]].body;
-    body.features = std::make_unique<const narrowphase::Features>(body.mesh);
-  });
-}
-
 void Bodies::make_neighbors(std::span<const std::uint32_t> slots, int threads) {
   make_features(slots, threads);
   base::parallel_for(slots.size(), 1, threads, [&](std::size_t i) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -49,7 +50,7 @@ struct alignas(64) Body {
   bool self_contact = false;
   bool is_outward = false;  // it has an inside, and facets were counter-clockwise seen from outside: by its volume
   std::uint64_t birth = 0;  // a hash of the mesh and slot as they were when it was added, and of the step
-  std::unique_ptr<const narrowphase::Features> features = nullptr;           // made when points are first requested
+  std::shared_ptr<const narrowphase::Features> features = nullptr;           // made when points are first requested
   std::unique_ptr<const narrowphase::ClusterNeighbors> neighbors = nullptr;  // when it is first held against itself
   std::unique_ptr<const narrowphase::HalfSpace> plane = nullptr;             // of a plane, whose mesh is empty
   std::vector<double> begin = {};  // where it was in the last step, once it has moved twice since: a placement
@@ -151,7 +152,8 @@ class Bodies {
   bool seen(std::uint32_t slot) const { return slots_[slot].seen; }
   narrowphase::Placement begin_of(std::uint32_t slot) const;
   narrowphase::MovingMesh moving(std::uint32_t slot) const;
-  // Makes the features that are missing of some bodies, which may be named more than once, in parallel.
+  // Makes the features that are missing of some bodies, which may be named more than once, in parallel. Bodies with the
+  // same facets in the same clusters share them.
   void make_features(std::span<const std::uint32_t> slots, int threads);
   // The same of their neighbours, and the features of these; each body is named once.
   void make_neighbors(std::span<const std::uint32_t> slots, int threads);
@@ -309,6 +311,9 @@ class Bodies {
   // facets.cpp
   std::vector<double> begin_positions(std::uint32_t slot, std::span<const double> now, std::span<const int> was) const;
 
+  // shared_features.cpp
+  std::uint32_t holder_of_features(std::uint32_t slot, std::uint64_t hash);
+
   // regroup.cpp
   Begin go_the_way(std::uint32_t slot, narrowphase::ClusteredMesh& anew) const;
 
@@ -382,13 +387,14 @@ class Bodies {
   std::vector<std::uint32_t> planes_;
   std::vector<base::Box> placed_boxes_;  // with their margins, of rigid bodies that place() placed
   std::int64_t placed_count_ = 0;
-  double farthest_rest_ = 0.0;                   // coordinate of rigid bodies that there were, or more
-  std::vector<char> pose_changed_;               // scratch, of each update
-  std::vector<std::uint32_t> to_place_;          // scratch: those with Slot::to_place are among them
-  std::vector<Update> updates_;                  // scratch
-  std::vector<narrowphase::Kdop> new_kdops_;     // of those that know them
-  std::vector<std::uint32_t> without_features_;  // scratch
-  std::vector<char> named_;                      // scratch, an entry a slot
+  double farthest_rest_ = 0.0;                              // coordinate of rigid bodies that there were, or more
+  std::vector<char> pose_changed_;                          // scratch, of each update
+  std::vector<std::uint32_t> to_place_;                     // scratch: those with Slot::to_place are among them
+  std::vector<Update> updates_;                             // scratch
+  std::vector<narrowphase::Kdop> new_kdops_;                // of those that know them
+  std::vector<std::uint32_t> without_features_;             // scratch
+  std::map<std::uint64_t, std::uint32_t> feature_holders_;  // by topology_hash(): a slot that had such features
+  std::vector<char> named_;                                 // scratch, an entry a slot
   const PairChoice* choice_ = nullptr;
 };
 
@@ -399,7 +405,7 @@ struct Bodies::NewMesh {
   std::unique_ptr<LastingNames> names;
   std::unique_ptr<FeatureArrays> arrays;
   std::unique_ptr<SelfFilter> self_filter;
-  std::unique_ptr<const narrowphase::Features> features;           // if the body had some
+  std::shared_ptr<const narrowphase::Features> features;           // if the body had some
   std::unique_ptr<const narrowphase::ClusterNeighbors> neighbors;  // likewise
   Begin begin;
   bool grouped_from_scratch;

@@ -147,7 +147,7 @@ Bodies::NewMesh Bodies::make_mesh(BodyId id, const MeshUpdate& update, int threa
     made.begin = Begin::before;
   made.mesh.begin_travel_after(last);
   if (body.features != nullptr || made.self_filter != nullptr)
-    made.features = std::make_unique<const narrowphase::Features>(made.mesh);
+    made.features = std::make_shared<const narrowphase::Features>(made.mesh);
   if (body.neighbors != nullptr)
     made.neighbors = std::make_unique<const narrowphase::ClusterNeighbors>(made.mesh, *made.features);
   if (made.self_filter != nullptr) find_neighbors(*made.self_filter, {&made.mesh, made.features.get()});

@@ -87,15 +87,16 @@ void StateFields::write_body(const Bodies& bodies, std::uint32_t slot, const Mes
          mesh, *from.body, from, bodies.groupings_.entries_[slot]);
 }
 
-// Own: world, tuning, choice. Memory, or what only saves work: packed_meshes, rigid_states, tree, updates, new_kdops
-// and all scratch. Found again from what is read: boxes, kdops, counts, planes, placed_boxes, farthest_rest. With each
-// body: filters, margins, rest offsets, keys, groupings, and whether it is in `changed`. Not of a state: generations,
-// former; see take_ids().
+// Own: world, tuning, choice. Memory, or what only saves work: packed_meshes, rigid_states, tree, updates, new_kdops,
+// feature_holders and all scratch. Found again from what is read: boxes, kdops, counts, planes, placed_boxes,
+// farthest_rest. With each body: filters, margins, rest offsets, keys, groupings, and whether it is in `changed`. Not
+// of a state: generations, former; see take_ids().
 void StateFields::write(const Bodies& bodies, std::span<const BodyId> gone, StateWriter& writer) {
   const auto& [world, tuning, packed_meshes, slots, generations, former, rigid_states, free, boxes, filters, margins,
                rest_offsets, keys, tree, kdops, groupings, changed, count, removed, steps, excluded, excluded_labels,
                vertices, moved_vertices, rigid_count, self_count, filter_count, planes, placed_boxes, placed_count,
-               farthest_rest, pose_changed, to_place, updates, new_kdops, without_features, named, choice] = bodies;
+               farthest_rest, pose_changed, to_place, updates, new_kdops, without_features, feature_holders, named,
+               choice] = bodies;
   writer(steps, std::uint64_t{count});
   std::vector<char> is_free(slots.size(), 0);
   for (const std::uint32_t slot : free) is_free[slot] = 1;
@@ -128,7 +129,7 @@ void StateFields::read_neighbors(StateReader& reader, Body& body) {
                "there are not as many positions at rest as vertices");
   check_positions(filter.rest_positions.data(), filter.rest_positions.size() / 3, kName);
   reader.check(filter.rings > 0 || filter.rest_distance > 0.0, "a filter leaves out nothing");
-  body.features = std::make_unique<const narrowphase::Features>(body.mesh);
+  body.features = std::make_shared<const narrowphase::Features>(body.mesh);
   find_neighbors(filter, {&body.mesh, body.features.get()});
 }
 

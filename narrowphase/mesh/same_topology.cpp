@@ -1,0 +1,49 @@
+#include "narrowphase/mesh/same_topology.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <span>
+
+#include "engine/base/hash.h"
+
+namespace tact::narrowphase {
+
+namespace {
+
+std::array<int, 7> counts_of(const ClusteredMesh& mesh) {
+  const MeshCounts& counts = mesh.counts();
+  return {counts.source_vertices, counts.vertices,   counts.facets,     counts.borrowed,
+          counts.unused,          mesh.edge_count(), mesh.point_count()};
+}
+
+// See MeshArrays: it begins with the unused vertices.
+std::span<const std::byte> rest_of(const ClusteredMesh& mesh) {
+  return {reinterpret_cast<const std::byte*>(mesh.unused_source_vertices().data()), memory_size(mesh.counts()).rest};
+}
+
+void add(std::span<const std::byte> bytes, base::Hash& hash) {
+  for (std::size_t i = 0; i < bytes.size(); i += sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, &bytes[i], std::min(sizeof word, bytes.size() - i));
+    hash.add(word);
+  }
+}
+
+}  // namespace
+
+bool same_topology(const ClusteredMesh& a, const ClusteredMesh& b) {
+  return counts_of(a) == counts_of(b) && std::ranges::equal(a.refit_indices(), b.refit_indices()) &&
+         std::ranges::equal(rest_of(a), rest_of(b));
+}
+
+std::uint64_t topology_hash(const ClusteredMesh& mesh) {
+  base::Hash hash;
+  for (const int count : counts_of(mesh)) hash.add(static_cast<std::uint64_t>(count));
+  add(std::as_bytes(mesh.refit_indices()), hash);
+  add(rest_of(mesh), hash);
+  return hash.value();
+}
+
+}  // namespace tact::narrowphase
