@@ -62,3 +62,4 @@ scripts/fuzz.sh "${1:-3600}"
 scripts/cross.sh libcxx
 scripts/cross.sh aarch64 tests
 scripts/cross.sh windows tests
+scripts/wheels.sh x86-64

@@ -3,6 +3,7 @@
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -15,24 +16,27 @@ PROJECT = FOLDER.parent.parent
 
 
 class CMakeBuild(build_ext):
-    """Configures and builds the one target, into the place where setuptools looks for the extension."""
+    """Configures and builds the one target, into the place where setuptools looks for the extension.
+
+    TACT_CMAKE_OPTIONS has more options for CMake, as a shell would read them.
+    """
 
     def build_extension(self, extension):
-        target = pathlib.Path(self.get_ext_fullpath(extension.name)).resolve().parent
+        target = pathlib.Path(self.get_ext_fullpath(extension.name)).resolve()
         build = pathlib.Path(self.build_temp).resolve()
         options = [
             "-DCMAKE_BUILD_TYPE=Release",
             "-DTACT_BUILD_PYTHON=ON",
             f"-DPython3_EXECUTABLE={sys.executable}",
         ]
+        options += shlex.split(os.environ.get("TACT_CMAKE_OPTIONS", ""))
         if shutil.which("ninja"):  # a machine with Ninja need not have make
             options += ["-G", "Ninja"]
         subprocess.run(["cmake", "-S", PROJECT, "-B", build, *options], check=True)
         subprocess.run(["cmake", "--build", build, "--target", "tact_python", *self.jobs()], check=True)
-        subprocess.run(["cmake", "-E", "make_directory", target], check=True)
-        for module in (build / "bindings/python/tact").glob("_tact.*.so"):
-            self.copy_file(str(module), str(target / module.name))
-
+        target.parent.mkdir(parents=True, exist_ok=True)
+        (module,) = (build / "bindings/python/tact").glob("_tact.*.so")
+        self.copy_file(str(module), str(target))  # under the name that this Python has for it
 
     def jobs(self):
         """As many compilers at a time as build_ext --parallel says, or CMAKE_BUILD_PARALLEL_LEVEL, else as cmake likes."""
