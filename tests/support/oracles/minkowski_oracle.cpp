@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cfloat>
 #include <cmath>
 #include <numbers>
 
@@ -31,7 +32,11 @@ Long3 divided(Long3 p, long double s) { return {p.x / s, p.y / s, p.z / s}; }
 Long3 cross(Long3 p, Long3 q) {
   const Long3 n{p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
   if (norm(n) > 1e-4L * norm(p) * norm(q)) return n;
+#if LDBL_MANT_DIG == 113
+  using Quad = long double;
+#else
   __extension__ using Quad = __float128;
+#endif
   const auto minor = [](long double s, long double t, long double u, long double v) {
     return static_cast<long double>(static_cast<Quad>(s) * t - static_cast<Quad>(u) * v);
   };
