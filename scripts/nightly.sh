@@ -63,3 +63,4 @@ scripts/cross.sh libcxx
 scripts/cross.sh aarch64 tests
 scripts/cross.sh windows tests
 scripts/wheels.sh x86-64
+scripts/wheels.sh aarch64
