@@ -187,7 +187,10 @@ void run_churn(const std::string& name, Size size, const BeforeDetect& before) {
       both.on_owner(key_of(i), [&, i = i, more = more](auto& world, auto body) {
         const Eigen::Matrix3Xd positions = positions_of(blob_at(i, step, across), more);
         if (drawn(11, n, t, 4) != 0) world.set_positions(body, positions);
-        if (drawn(12, n, t, 9) == 0) world.set_margin(body, 0.02 * drawn(13, n, t, 4));
+        if (drawn(12, n, t, 9) == 0) {
+          world.set_feature_settings(body, {});  // vertices that came by a cut have the margin that it had then
+          world.set_margin(body, 0.02 * drawn(13, n, t, 4));
+        }
         if (drawn(14, n, t, 20) == 0) world.set_group(body, static_cast<std::uint32_t>(drawn(15, n, t, 3)));
         if (drawn(16, n, t, 20) == 0) world.set_layers(body, 1u << drawn(17, n, t, 2), 3u);
         if (drawn(18, n, t, 20) == 0) world.set_self_contact(body, drawn(19, n, t, 2) == 0);

@@ -112,10 +112,18 @@ Thrown throw_at(const Mesh& a, Mesh b, Vec3 step, int steps, double margin) {
   const BodyId first = world.add_body(body_with_margin(a, margin)),
                second = world.add_body(body_with_margin(b, margin));
   Thrown thrown;
-  Vec3 side;
+  Vec3 side;  // the axis that separated them last
   int crossing = 0;
+  bool has_crossed = false;
+  const auto look = [&] {
+    const Overlap overlap = least_overlap(a, b);
+    if (overlap.depth > 0.0) return;
+    if (has_crossed) thrown.other_side = thrown.other_side || reach_along(b, side) < -reach_along(a, -side);
+    side = overlap.direction;
+    has_crossed = false;
+  };
   for (int k = 0; k < steps; ++k) {
-    if (!thrown.met) side = least_overlap(a, b).direction;
+    look();
     b = translated(b, step);
     world.set_positions(second, b.positions);
     const Contact* contact = world.detect().find_contact(first, second);
@@ -124,13 +132,14 @@ Thrown throw_at(const Mesh& a, Mesh b, Vec3 step, int steps, double margin) {
     thrown.met = thrown.met || crosses;
     thrown.longest_crossing = std::max(thrown.longest_crossing, crossing);
     if (!crosses) continue;
+    has_crossed = true;
     b = translated(b, way_along_points(*contact));
     for (const ContactPoint& point : contact->points()) {
       const Vec3 n{point.normal.x(), point.normal.y(), point.normal.z()};
       if (point.gap < 0.0 && dot(step, n) < 0.0) step = step - dot(step, n) * n;
     }
   }
-  thrown.other_side = thrown.met && reach_along(b, side) < -reach_along(a, -side);
+  look();
   return thrown;
 }
 

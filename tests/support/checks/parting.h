@@ -41,11 +41,13 @@ Parting part_by_points(const Mesh& a, const Mesh& b, const PartingInput& input);
 struct Thrown {
   bool met = false;
   int longest_crossing = 0;  // steps one after the other in which facets met
-  bool other_side = false;   // it ends beyond the other one, seen from where it was before they met
+  // Once it came out beyond the other one, along the axis that separated them before. What hits a rim and slides past
+  // does not.
+  bool other_side = false;
 };
 
 // Moves b by `step`, so often; after each step it is moved along the points, and goes on without what leads against
-// these. a stands still.
+// these. a stands still. Both are convex.
 Thrown throw_at(const Mesh& a, Mesh b, Vec3 step, int steps, double margin);
 
 // How thick a closed mesh is through an inside point along a line: from the first facet on one side to the first on the
