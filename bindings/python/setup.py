@@ -35,8 +35,8 @@ class CMakeBuild(build_ext):
         subprocess.run(["cmake", "-S", PROJECT, "-B", build, *options], check=True)
         subprocess.run(["cmake", "--build", build, "--target", "tact_python", *self.jobs()], check=True)
         target.parent.mkdir(parents=True, exist_ok=True)
-        (module,) = (build / "bindings/python/tact").glob("_tact.*.so")
-        self.copy_file(str(module), str(target))  # under the name that this Python has for it
+        for module in (build / "bindings/python/tact").glob("_tact.*.so"):
+            self.copy_file(str(module), str(target))  # under the name that this Python has for it
 
     def jobs(self):
         """As many compilers at a time as build_ext --parallel says, or CMAKE_BUILD_PARALLEL_LEVEL, else as cmake likes."""
