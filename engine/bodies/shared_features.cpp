@@ -47,8 +47,11 @@ void Bodies::make_features(std::span<const std::uint32_t> slots, int threads) {
   });
   for (std::size_t i = 0; i < count; ++i) slots_[without_features_[i]].body->features = in_slot(holders[i]).features;
   if (feature_holders_.size() <= 2 * count_ + kFewHolders) return;
-  std::erase_if(feature_holders_,
-                [&](const auto& one) { return !used(one.second) || in_slot(one.second).features == nullptr; });
+  // Of each slot what it holds now stays.
+  std::erase_if(feature_holders_, [&](const auto& one) {
+    return !used(one.second) || in_slot(one.second).features == nullptr ||
+           topology_hash(in_slot(one.second).mesh) != one.first;
+  });
 }
 
 }  // namespace tact

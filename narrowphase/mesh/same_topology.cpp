@@ -34,8 +34,11 @@ void add(std::span<const std::byte> bytes, base::Hash& hash) {
 }  // namespace
 
 bool same_topology(const ClusteredMesh& a, const ClusteredMesh& b) {
-  return counts_of(a) == counts_of(b) && std::ranges::equal(a.refit_indices(), b.refit_indices()) &&
-         std::ranges::equal(rest_of(a), rest_of(b));
+  const auto same = [](std::span<const std::byte> x, std::span<const std::byte> y) {
+    return x.size() == y.size() && (x.empty() || std::memcmp(x.data(), y.data(), x.size()) == 0);
+  };
+  return counts_of(a) == counts_of(b) && same(std::as_bytes(a.refit_indices()), std::as_bytes(b.refit_indices())) &&
+         same(rest_of(a), rest_of(b));
 }
 
 std::uint64_t topology_hash(const ClusteredMesh& mesh) {
