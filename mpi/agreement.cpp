@@ -93,17 +93,14 @@ void World::Implementation::send_exclusions() {
   });
   directory.find(*others);
   const std::span<const int> owners = others->owners();
-  const std::vector<Exclusion> all = std::exchange(exclusions, {});
+  channel.together([&] { check_exclusions(owners); });
   const auto messages = channel.exchange([&](Outbox& outbox) {
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const auto put_to = [&](int rank) { all[i].put(outbox.to(rank)); };
-      if (held.shared.contains(all[i].pair.other)) {
+    for (std::size_t i = 0; i < exclusions.size(); ++i) {
+      const auto put_to = [&](int rank) { exclusions[i].put(outbox.to(rank)); };
+      if (held.shared.contains(exclusions[i].pair.other)) {
         for (int rank = 0; rank < channel.size(); ++rank) put_to(rank);
       } else if (owners[i] >= 0) {
         put_to(owners[i]);
-      } else if (all[i].marks) {
-        throw Error(ErrorCode::stale_body,
-                    "nobody owns a body of key " + std::to_string(all[i].pair.other) + ", which was to be excluded");
       }
     }
   });
@@ -122,6 +119,35 @@ void World::Implementation::send_exclusions() {
       }
     }
   });
+  exclusions.clear();  // if anything failed they are sent again
+}
+
+// Takes back what names a body that nobody owns, and throws then.
+void World::Implementation::check_exclusions(std::span<const int> owners) {
+  std::vector<Exclusion> others;
+  std::optional<std::uint64_t> unknown;
+  for (std::size_t i = 0; i < exclusions.size(); ++i) {
+    const Exclusion& one = exclusions[i];
+    if (held.shared.contains(one.pair.other) || owners[i] >= 0 || !one.marks) {
+      others.push_back(one);
+      continue;
+    }
+    unknown = one.pair.other;
+    if (held.own.contains(one.pair.key)) exclude(one.pair, false, false);
+  }
+  if (!unknown) return;
+  exclusions = std::move(others);
+  throw Error(ErrorCode::stale_body,
+              "nobody owns a body of key " + std::to_string(*unknown) + ", which was to be excluded");
+}
+
+void World::Implementation::settle_names() {
+  update_directory();
+  std::array<std::uint64_t, 1> any{!exclusions.empty()};
+  channel.largest(any);
+  if (any[0] == 0) return;
+  send_exclusions();
+  needs_near = true;
 }
 
 }  // namespace tact::mpi

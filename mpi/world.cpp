@@ -220,6 +220,9 @@ void World::remove_body(std::uint64_t key) {
     return;
   }
   OwnBody& body = i.at(key);
+  for (Implementation::Exclusion& one : i.exclusions) {
+    if (one.pair.key == key) one.wanted = one.marks = false;  // another body may come with the key
+  }
   for (const ExcludedPair& pair : HeldBodies::pairs_of(i.held.excluded, key)) {
     if (i.held.own.contains(pair.other))
       i.exclude(pair.swapped(), false, false);
@@ -387,7 +390,7 @@ void World::set_body_state(BodyState state) {
 
 void World::rebalance() {
   Implementation& i = implementation();
-  i.update_directory();
+  i.settle_names();
   i.rebalance();
 }
 
@@ -401,7 +404,7 @@ void World::set_owner(std::uint64_t key, int rank) {
 
 void World::move_bodies() {
   Implementation& i = implementation();
-  i.update_directory();
+  i.settle_names();
   i.move(i.new_owners);
   i.new_owners.clear();
 }

@@ -138,6 +138,8 @@ struct World::Implementation {
   bool begin(bool for_step);
   void update_directory();
   void send_exclusions();
+  void check_exclusions(std::span<const int> owners);
+  void settle_names();  // before bodies move: whose keys are whose, what is excluded
 
   // near.cpp: which ranks have a host near each own body, by boxes or by those of ways.
   void find_near(bool by_ways);

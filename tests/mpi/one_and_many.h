@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -20,6 +21,24 @@ namespace tact::tests {
 
 // False: the ranks alone, whose digest is compared with that of a run beside one world.
 inline bool has_one_world = true;
+
+inline mpi::Settings all_outputs(mpi::Partitioner partitioner = mpi::Partitioner::rcb) {
+  return {.world = {.threads = 1, .outputs = {.zones = true, .patches = true, .points = true}},
+          .partitioner = partitioner};
+}
+
+inline std::string caught(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return std::string(error_code_name(error.code())) + ": " + error.what();
+  }
+  return "nothing";
+}
+
+inline void expect_on_all(const std::string& found, const std::string& expected) {
+  expect(found == expected, "threw '" + found + "', not '" + expected + "'");
+}
 
 // One world on rank 0 beside the world of all ranks. All ranks make the same calls of it.
 class Both {

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "tests/mpi/blobs.h"
+#include "tests/mpi/exclusions.h"
 #include "tests/mpi/one_and_many.h"
 #include "tests/support/environment/allocation_hook.h"
 #include "tests/support/generators/bodies.h"
@@ -32,11 +33,6 @@ namespace {
 struct Size {
   int bodies, steps;
 };
-
-mpi::Settings all_outputs(mpi::Partitioner partitioner = mpi::Partitioner::rcb) {
-  return {.world = {.threads = 1, .outputs = {.zones = true, .patches = true, .points = true}},
-          .partitioner = partitioner};
-}
 
 using Owner = std::function<int(int body)>;
 using BeforeStep = std::function<void(Both& both, int step)>;
@@ -259,42 +255,6 @@ void reused_slots(Size) {
   both.detect();
 }
 
-// Two bodies of two owners: no box moves, only labels, what is excluded of them, and who owns whom.
-void excluded_labels(Size) {
-  Both both("excluded labels", all_outputs());
-  const Mesh cube = box({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});
-  const int last = count_of_ranks() - 1;
-  both.add(definition_of(cube, 1, 0.01), 0);
-  both.add(definition_of(translated(cube, {2.0, 0.1, 0.2}), 2, 0.01), last);
-  both.detect();
-  both.on_owner(2, [&](auto& world, auto body) {
-    world.set_positions(body, translated(cube, {0.5, 0.1, 0.2}).positions);
-  });
-  both.detect_motion(Impacts::all);
-  const auto label = [&](Key key, std::uint32_t number) {
-    const std::vector<std::uint32_t> labels(static_cast<std::size_t>(cube.facets.cols()), number);
-    both.on_owner(key, [&](auto& world, auto body) { world.set_feature_settings(body, {.facet_labels = labels}); });
-    both.detect();
-  };
-  label(1, 7), label(2, 5);
-  for (int k = 0; k < 4; ++k) {
-    const Key other = k % 2 == 0 ? 1 : 2;
-    both.exclude({.key_a = 1, .label_a = 7, .key_b = 2, .label_b = 5}, true, k % 2 == 0);
-    both.detect();
-    label(other, 9);
-    both.save();
-    label(other, other == 1 ? 7 : 5);
-    both.restore(Both::Shares::in_turn, k);
-    both.detect();
-    label(other, other == 1 ? 7 : 5);
-    for (const Key key : both.many.bodies()) both.many.set_owner(key, (rank_of_all() + 1) % count_of_ranks());
-    both.many.move_bodies();
-    both.detect();
-    both.exclude({.key_a = 2, .label_a = 5, .key_b = 1, .label_b = 7}, false, k % 2 == 0);
-    both.detect();
-  }
-}
-
 // States are saved amid all that, and gone back to, by other ranks than those that saved them.
 void restored(Size size) {
   There saved;
@@ -368,19 +328,6 @@ void cloth(Size size) {
     if (step % 4 == 2) both.detect_motion(Impacts::all);
     both.detect();
   }
-}
-
-std::string caught(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return std::string(error_code_name(error.code())) + ": " + error.what();
-  }
-  return "nothing";
-}
-
-void expect_on_all(const std::string& found, const std::string& expected) {
-  expect(found == expected, "threw '" + found + "', not '" + expected + "'");
 }
 
 // A failure of one rank is one of all, and they go on as if nothing had been called.
@@ -524,7 +471,8 @@ constexpr Case kCases[] = {{"pile", pile},
                            {"emptied", emptied},
                            {"churn", churn},
                            {"reused_slots", reused_slots},
-                           {"excluded_labels", excluded_labels},
+                           {"excluded_labels", [](Size) { excluded_labels(); }},
+                           {"exclusions", [](Size) { exclusions(); }},
                            {"restored", restored},
                            {"cloth", cloth},
                            {"failures", failures_of_one},
