@@ -118,7 +118,8 @@ Thrown throw_at(const Mesh& a, Mesh b, Vec3 step, int steps, double margin) {
   const auto look = [&] {
     const Overlap overlap = least_overlap(a, b);
     if (overlap.depth > 0.0) return;
-    if (has_crossed) thrown.other_side = thrown.other_side || reach_along(b, side) < -reach_along(a, -side);
+    if (has_crossed && (reach_along(b, side) < -reach_along(a, -side) || dot(side, overlap.direction) < 0.0))
+      thrown.other_side = true;
     side = overlap.direction;
     has_crossed = false;
   };
