@@ -1,9 +1,13 @@
 // Hashes of 64-bit words.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <span>
 
 namespace tact::base {
 
@@ -26,6 +30,14 @@ class Hash {
     state_ = std::rotl(state_ ^ mixed(word), 23) * kGoldenStep;
   }
   void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  // Word by word, the last filled up with zeros; not how many there are.
+  void add(std::span<const std::byte> bytes) {
+    for (std::size_t begin = 0; begin < bytes.size(); begin += sizeof(std::uint64_t)) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes.data() + begin, std::min(sizeof word, bytes.size() - begin));
+      add(word);
+    }
+  }
   std::uint64_t value() const { return state_; }
 
  private:

@@ -1,6 +1,5 @@
 #include "engine/state/world_state.h"
 
-#include <algorithm>
 #include <array>
 #include <cstring>
 #include <string>
@@ -45,11 +44,7 @@ std::span<const std::byte> content_of(std::span<const std::byte> bytes) {
 std::uint64_t checksum_of(std::span<const std::byte> bytes) {
   base::Hash hash;
   hash.add(std::uint64_t{bytes.size()});
-  for (std::size_t begin = 0; begin < bytes.size(); begin += sizeof(std::uint64_t)) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + begin, std::min(sizeof word, bytes.size() - begin));
-    hash.add(word);
-  }
+  hash.add(bytes);
   return hash.value();
 }
 

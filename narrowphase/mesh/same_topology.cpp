@@ -1,6 +1,5 @@
 #include "narrowphase/mesh/same_topology.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstring>
@@ -23,14 +22,6 @@ std::span<const std::byte> rest_of(const ClusteredMesh& mesh) {
   return {reinterpret_cast<const std::byte*>(mesh.unused_source_vertices().data()), memory_size(mesh.counts()).rest};
 }
 
-void add(std::span<const std::byte> bytes, base::Hash& hash) {
-  for (std::size_t i = 0; i < bytes.size(); i += sizeof(std::uint64_t)) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, &bytes[i], std::min(sizeof word, bytes.size() - i));
-    hash.add(word);
-  }
-}
-
 }  // namespace
 
 bool same_topology(const ClusteredMesh& a, const ClusteredMesh& b) {
@@ -44,8 +35,8 @@ bool same_topology(const ClusteredMesh& a, const ClusteredMesh& b) {
 std::uint64_t topology_hash(const ClusteredMesh& mesh) {
   base::Hash hash;
   for (const int count : counts_of(mesh)) hash.add(static_cast<std::uint64_t>(count));
-  add(std::as_bytes(mesh.refit_indices()), hash);
-  add(rest_of(mesh), hash);
+  hash.add(std::as_bytes(mesh.refit_indices()));
+  hash.add(rest_of(mesh));
   return hash.value();
 }
 
