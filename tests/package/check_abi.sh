@@ -26,6 +26,8 @@ types_of_c() {
 sizes() {
   local program
   program=$(mktemp -d)
+  # shellcheck disable=SC2064  # its name is that of now
+  trap "rm -rf '$program'" EXIT  # of the subshell
   {
     echo '#include <cstdio>'
     { headers_of_cpp; ls "$project"/bindings/c/include/tact/*.h; } | sed 's/.*/#include "&"/'
@@ -37,7 +39,6 @@ sizes() {
   "$@" -I"$project/engine/include" -I"$project/engine/base/include" -I"$project/bindings/c/include" \
     "$program/sizes.cpp" -o "$program/sizes"
   "$program/sizes"
-  rm -r "$program"
 }
 
 case $what in
