@@ -9,11 +9,11 @@
 #include <numeric>
 #include <vector>
 
+#include "tests/engine/motion/couples.h"
 #include "tests/support/environment/allocation_hook.h"
 #include "tests/support/generators/bodies.h"
 #include "tests/support/generators/folds.h"
 #include "tests/support/generators/random.h"
-#include "tests/support/hashes/answer_hash.h"
 #include "tests/support/oracles/motion_by_brute_force.h"
 
 namespace tact::tests {
@@ -30,58 +30,6 @@ std::map<ImpactKey, double> impacts_of(const MotionReport& report, BodyId a, Bod
     EXPECT_TRUE(is_new || impact.stops);
   }
   return found;
-}
-
-// A motion that no rigid body makes.
-Eigen::Matrix3Xd moved(const Mesh& mesh, Vec3 way, double wildness, Random& random) {
-  Eigen::Matrix3Xd end = mesh.positions;
-  for (int v = 0; v < mesh.vertex_count(); ++v) {
-    const Vec3 p = way + wildness * random.in_ball();
-    end.col(v) += Eigen::Vector3d(p.x, p.y, p.z);
-  }
-  return end;
-}
-
-struct Couple {
-  const char* name;
-  MovingMesh a, b;
-};
-
-// Both about one axis that passes far from them.
-Couple turned(const char* name, const Mesh& a, const Mesh& b) {
-  const auto turn = [](const Mesh& mesh) {
-    const Eigen::Vector3d pivot(3, 0, 0);
-    const Eigen::Matrix3d rotation = Eigen::AngleAxisd(0.5, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
-    return Eigen::Matrix3Xd(((rotation * (mesh.positions.colwise() - pivot)).colwise() + pivot));
-  };
-  Couple couple{name, {a, turn(a)}, {b, turn(b)}};
-  couple.b.end.row(0).array() -= 0.05;
-  return couple;
-}
-
-std::vector<Couple> couples() {
-  Random random(11);
-  std::vector<Couple> all;
-  const auto add = [&](const char* name, const Mesh& a, Vec3 way_a, const Mesh& b, Vec3 way_b, double wildness) {
-    all.push_back({name, {a, moved(a, way_a, wildness, random)}, {b, moved(b, way_b, wildness, random)}});
-  };
-  const Mesh ball = blob(3, 1.0, 0.2, 1), other = translated(blob(3, 1.0, 0.2, 2), {3.0, 0.2, 0.1});
-  add("balls that pass through each other", ball, {4, 0, 0}, other, {-4, 0, 0}, 0.0);
-  add("balls that graze", ball, {0.6, 0, 0}, other, {-0.6, 0, 0}, 0.05);
-  add("balls that overlap", ball, {0.1, 0, 0}, translated(other, {-1.8, 0, 0}), {-0.1, 0, 0}, 0.01);
-  add("a sheet that a ball falls through", translated(icosphere(2), {0, 0, 3}), {0.1, 0.2, -7}, sheet(24, 24, 6, 6),
-      {0, 0, 0.5}, 0.02);
-  add("boxes on a grid, face to face", gridded_box({0, 0, 0}, {1, 1, 1}, 4), {0.5, 0, 0},
-      gridded_box({1, 0, 0}, {2, 1, 1}, 4), {0, 0.25, 0}, 0.0);
-  add("boxes on a grid that meet", gridded_box({0, 0, 0}, {1, 1, 1}, 4), {2, 0, 0},
-      gridded_box({1.5, 0.25, 0}, {2.5, 1.25, 1}, 4), {0, 0, 0}, 0.0);
-  add("soups", soup(120, 1.0, 3), {0.5, 0, 0}, soup(120, 1.0, 4), {-0.5, 0, 0}, 0.3);
-  add("soups with facets without area", lattice_soup(150, 3, 5), {1, 1, 0}, lattice_soup(150, 3, 6), {0, 0, 1}, 0.0);
-  add("needles", needles(100, 1e4, 7), {0.3, 0, 0}, needles(100, 1e4, 8), {-0.3, 0.1, 0}, 0.1);
-  add("balls that graze, carried along", ball, {30.6, -7, 4}, other, {29.4, -7, 4}, 0.05);
-  add("soups, carried along", soup(120, 1.0, 3), {0.5, 9, 0}, soup(120, 1.0, 4), {-0.5, 9, 0}, 0.3);
-  all.push_back(turned("soups, turned by half a radian", soup(120, 1.0, 3), soup(120, 1.0, 4)));
-  return all;
 }
 
 TEST(DetectMotion, SetsEqualBruteForceForAnyNumberOfThreads) {
@@ -232,16 +180,6 @@ TEST(DetectMotion, OfBoxesThatPassCornerToCornerIsRight) {
   EXPECT_GT(meeting, 30);
   EXPECT_GT(missing, 50);
 }
-
-struct BallAndWall {
-  tact::World world;
-  Mesh ball = translated(icosphere(1, 0.1), {0, 0, 1}), wall = sheet(4, 4, 4, 4);
-  BodyId flying = world.add_body({.positions = ball.positions, .facets = ball.facets});
-  BodyId standing = world.add_body(
-      {.positions = wall.positions, .facets = wall.facets, .surface = Surface::sheet, .motion = Motion::fixed});
-
-  void put(double z) { world.set_positions(flying, translated(ball, {0, 0, z - 1.0}).positions); }
-};
 
 TEST(DetectMotion, GoesFromTheLastStepHoweverOftenPositionsAreSet) {
   BallAndWall scene;
@@ -425,120 +363,6 @@ TEST(DetectMotion, ASolverThatStopsBeforeImpactsSettlesWithinTheMargins) {
   EXPECT_LE(stalled, 3);
   EXPECT_GT(in_contact, 200);
   EXPECT_NEAR(gap, kReach, 1e-6);
-}
-
-// A couple in a world that has seen where it begins.
-struct CoupleOnItsWay {
-  tact::World world;
-  BodyId a, b;
-
-  CoupleOnItsWay(const Couple& couple, double margin, int threads) : world({.threads = threads}) {
-    a = world.add_body({.positions = couple.a.begin.positions, .facets = couple.a.begin.facets, .margin = margin});
-    b = world.add_body({.positions = couple.b.begin.positions, .facets = couple.b.begin.facets, .margin = margin});
-    world.detect();
-  }
-  void go(const Couple& couple, double part_a, double part_b) {
-    // As two solvers write it.
-    world.set_positions(a, couple.a.begin.positions + part_a * (couple.a.end - couple.a.begin.positions));
-    world.set_positions(b, (1.0 - part_b) * couple.b.begin.positions + part_b * couple.b.end);
-  }
-};
-
-AnswerHashes answer_of(tact::World& world, const MotionOptions& options) {
-  AnswerHash answer;
-  answer.add(world.detect_motion(options));
-  return answer.hashes();
-}
-
-// What a call knows of an earlier one on a longer way changes no answer: two bodies that go the same part, or each its
-// own, which is another way; and farther again.
-TEST(DetectMotion, OnAPartOfAWayIsAsWithoutTheWholeOne) {
-  const std::vector<Couple> every = couples();
-  std::vector<Couple> all{every[2], every[5], every[10], every[1]};
-  all.back().name = "balls that graze, far away";
-  for (MovingMesh* const mesh : {&all.back().a, &all.back().b}) {
-    mesh->begin.positions.array() += 3e5;
-    mesh->end.array() += 3e5;
-  }
-  std::int64_t candidates = 0, without = 0;
-  for (const Couple& couple : all) {
-    for (const Impacts wanted : {Impacts::all, Impacts::first, Impacts::first_of_pair}) {
-      const double margin = wanted == Impacts::first ? 0.02 : 0.0;
-      CoupleOnItsWay known(couple, margin, 2), scratch(couple, margin, 1);
-      known.go(couple, 1.0, 1.0);
-      const double first = std::min(known.world.detect_motion(wanted).first_time(), 1.0);
-      for (const auto [part, of_b] : {std::array{0.9, 0.9}, {0.6, 0.5}, {0.999 * first, 0.999 * first}, {0.3, 0.3}}) {
-        if (!(part > 0.0)) continue;
-        const MotionOptions options{.wanted = part == 0.3 ? Impacts::all : wanted, .bounds = part == 0.3};
-        for (CoupleOnItsWay* const two : {&known, &scratch}) two->go(couple, part, of_b);
-        scratch.world.set_margin(scratch.a, margin);  // it knows nothing of its way
-        EXPECT_EQ(answer_of(known.world, options), answer_of(scratch.world, options))
-            << couple.name << ", " << part << " and " << of_b << " of the way";
-        if (&couple != &all.front() || wanted != Impacts::all || part != 0.9) continue;
-        candidates += known.world.detect_motion(options).stats().candidates;
-        scratch.world.set_margin(scratch.a, margin);
-        without += scratch.world.detect_motion(options).stats().candidates;
-      }
-    }
-  }
-  EXPECT_LT(2 * candidates, without);
-}
-
-// What changes besides positions is seen by the next call on the same way.
-TEST(DetectMotion, OnAPartOfAWayGoesByTheSettingsOfNow) {
-  const Couple couple = couples()[2];
-  using Change = std::function<void(CoupleOnItsWay&)>;
-  const std::vector<Change> changes{
-      [](CoupleOnItsWay& two) { two.world.set_margin(two.a, 0.1); },
-      [](CoupleOnItsWay& two) { two.world.set_rest_offset(two.b, 0.01); },
-      [](CoupleOnItsWay& two) { two.world.set_layers(two.a, 2, 2); },
-      [](CoupleOnItsWay& two) { two.world.set_excluded(two.a, two.b, true); },
-      [](CoupleOnItsWay& two) { two.world.set_self_contact(two.a, true); },
-      [](CoupleOnItsWay& two) { two.world.set_motion(two.b, Motion::fixed); },
-      [&](CoupleOnItsWay& two) {
-        std::vector<int> map(static_cast<std::size_t>(couple.a.end.cols()));
-        std::iota(map.begin(), map.end(), 0);
-        two.world.set_facets(two.a, couple.a.end, couple.a.begin.facets.leftCols(100), map);
-      },
-      [](CoupleOnItsWay& two) { two.world.detect(); },
-      [](CoupleOnItsWay& two) { two.world.restore(two.world.save()); },
-  };
-  for (const Change& change : changes) {
-    CoupleOnItsWay known(couple, 0.02, 1), scratch(couple, 0.02, 1);
-    for (CoupleOnItsWay* const two : {&known, &scratch}) {
-      two->go(couple, 1.0, 1.0);
-      if (two == &known) two->world.detect_motion();
-      change(*two);
-      if (two->world.motion(two->b) != Motion::fixed) two->go(couple, 0.7, 0.7);
-    }
-    EXPECT_EQ(answer_of(known.world, {}), answer_of(scratch.world, {})) << "change " << &change - changes.data();
-  }
-}
-
-// A body that no step has seen has no way, wherever it is put: what was found of it at one place tells nothing of
-// another.
-TEST(DetectMotion, OnAPartOfAWayBodiesThatNoStepHasSeenMayBeAnywhere) {
-  constexpr double kBeside =
-      2.09;  // metres along x and y: the wall's corner is in the box of the ball's way, and not met
-  for (const Motion motion : {Motion::deformable, Motion::rigid}) {
-    BallAndWall scene;
-    scene.world.remove_body(scene.standing);
-    scene.world.detect();
-    const BodyId late = scene.world.add_body(
-        {.positions = scene.wall.positions, .facets = scene.wall.facets, .surface = Surface::sheet, .motion = motion});
-    const auto put_late = [&](double beside) {
-      if (motion == Motion::rigid) {
-        scene.world.set_pose(late, Eigen::Matrix3d::Identity(), {beside, beside, 0.0});
-      } else {
-        scene.world.set_positions(late, translated(scene.wall, {beside, beside, 0.0}).positions);
-      }
-    };
-    put_late(kBeside);
-    scene.put(-1.0);
-    EXPECT_TRUE(scene.world.detect_motion().impacts().empty());
-    put_late(0.0);
-    EXPECT_FALSE(scene.world.detect_motion().impacts().empty()) << static_cast<int>(motion);
-  }
 }
 
 TEST(DetectMotion, SteadyStepsAllocateNothing) {
