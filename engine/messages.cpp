@@ -54,8 +54,7 @@ void tell_open_surface(const Body& body, const MessageFunction& tell) {
   const std::string text = text_if_there_is_room([&] {
     return "body '" + body.name +
            "' was added as closed and is taken as a sheet: its surface has a border, facets turned against each other, "
-           "or "
-           "each facet twice, once each way";
+           "or each facet twice, once each way";
   });
   tell({.kind = MessageKind::open_surface, .a = body.id, .b = body.id, .text = text});
 }

@@ -90,9 +90,9 @@ void World::set_settings(const Settings& settings) {
 BodyId World::add_body(const BodyDefinition& definition) {
   const base::FloatingPointMode mode;
   Implementation& i = implementation();
-  const BodyId body = with_memory("adding a body ran out of memory", [&] { return i.bodies.add(definition); });
+  const auto tell = [&](const Body& body) { tell_open_surface(body, i.settings.on_message); };
+  const BodyId body = with_memory("adding a body ran out of memory", [&] { return i.bodies.add(definition, tell); });
   i.observe([&](WorldObserver& observer) { observer.body_added(body, definition); });
-  tell_open_surface(i.bodies.at(body), i.settings.on_message);
   return body;
 }
 
@@ -196,7 +196,10 @@ void World::set_rest_offset(BodyId body, std::optional<double> rest_offset) {
 void World::set_feature_settings(BodyId body, const FeatureSettings& settings) {
   Implementation& i = implementation();
   i.change([&] { i.bodies.set_feature_settings(body, settings); },
-           [&](WorldObserver& observer) { observer.feature_settings_set(body, settings); });
+           [&](WorldObserver& observer) {
+             // what was given may be a view of what is gone
+             observer.feature_settings_set(body, feature_settings(body));
+           });
 }
 
 void World::set_self_contact(BodyId body, bool wanted) {
@@ -209,7 +212,7 @@ void World::set_self_contact_filter(BodyId body, const SelfContactFilter& filter
   const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.change([&] { i.bodies.set_self_filter(body, filter, i.settings.threads); },
-           [&](WorldObserver& observer) { observer.self_contact_filter_set(body, filter); });
+           [&](WorldObserver& observer) { observer.self_contact_filter_set(body, self_contact_filter(body)); });
 }
 
 void World::set_excluded_labels(const LabelPair& labels, bool excluded) {

@@ -68,7 +68,7 @@ void Bodies::check_key(std::uint64_t key, const std::string& name) const {
                 quoted(name) + ": key " + std::to_string(key) + " is that of " + quoted(in_slot(*other).name));
 }
 
-BodyId Bodies::add(const BodyDefinition& definition) {
+BodyId Bodies::add(const BodyDefinition& definition, const std::function<void(const Body&)>& told) {
   const std::uint32_t slot = next_slot();
   const std::string name = definition.name.empty() ? "body " + std::to_string(slot) : definition.name;
   check_name(definition.surface, Surface::sheet, quoted(name) + ": surface");
@@ -77,7 +77,10 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   check_rest_offset(definition.rest_offset, definition.margin, name);
   check_shape(arguments_of(definition), slots_.size(), name);
   check_key(definition.key.value_or(slot), name);
-  return add_made(make_body(definition, name), definition, slot, definition.motion);
+  std::unique_ptr<Body> body = make_body(definition, name);
+  body->id = id_of_next(slot);
+  if (told) told(*body);
+  return add_made(std::move(body), definition, slot, definition.motion);
 }
 
 BodyId Bodies::add(const PlaneDefinition& definition) {
@@ -89,11 +92,18 @@ BodyId Bodies::add(const PlaneDefinition& definition) {
   check_rest_offset(definition.rest_offset, definition.margin, name);
   check_counts(0, 0, slots_.size(), name);
   check_key(definition.key.value_or(slot), name);
-  auto body = std::make_unique<Body>(Body{
-      .mesh = {{}, {}}, .id = {}, .name = name, .surface = Surface::closed, .external_id = definition.external_id});
+  auto body = std::make_unique<Body>(Body{.mesh = {{}, {}},
+                                          .id = id_of_next(slot),
+                                          .name = name,
+                                          .surface = Surface::closed,
+                                          .external_id = definition.external_id});
   body->plane =
       std::make_unique<const narrowphase::HalfSpace>(narrowphase::HalfSpace{{n.x(), n.y(), n.z()}, definition.offset});
   return add_made(std::move(body), definition, slot, Motion::fixed);
+}
+
+BodyId Bodies::id_of_next(std::uint32_t slot) const {
+  return {slot, (slot < generations_.size() ? generations_[slot] : 0) + 1, world_};
 }
 
 // Nothing can fail half-way: all that may allocate comes first.
@@ -108,7 +118,7 @@ BodyId Bodies::add_made(std::unique_ptr<Body> body, const Definition& definition
   body->is_outward = body->has_inside && is_outward(body->mesh);
   make_room_for(slot, place);
   slot < slots_.size() ? free_.pop_back() : add_slot();
-  body->id = {slot, ++generations_[slot], world_};
+  generations_[slot] = body->id.generation;
   put(slot, std::move(body), place);
   return slots_[slot].body->id;
 }

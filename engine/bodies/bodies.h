@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -71,7 +72,8 @@ class Bodies {
   // Of the world.
   const base::Tuning& tuning() const { return *tuning_; }
 
-  BodyId add(const BodyDefinition& definition);
+  // Calls told(body) once the body has all but its place: what that throws comes out, and nothing has changed.
+  BodyId add(const BodyDefinition& definition, const std::function<void(const Body&)>& told = {});
   BodyId add(const PlaneDefinition& definition);
   void remove(BodyId id);
   void set_positions(std::span<const PositionsUpdate> updates, int threads);
@@ -285,6 +287,7 @@ class Bodies {
   void check_key(std::uint64_t key, const std::string& name) const;
   template <class Definition>
   BodyId add_made(std::unique_ptr<Body> body, const Definition& definition, std::uint32_t slot, Motion motion);
+  BodyId id_of_next(std::uint32_t slot) const;
   std::uint32_t next_slot() const { return free_.empty() ? static_cast<std::uint32_t>(slots_.size()) : free_.back(); }
   static constexpr double kAsMargin = -1.0;  // a rest offset that is the margin
   // What a body has in its slot.

@@ -25,7 +25,8 @@ class BodyTree {
   // The box of a slot has changed, come or gone.
   void note_change(std::uint32_t slot);
 
-  // Counts queries that are about to scan these boxes; returns whether to update the tree. Any thread may call this.
+  // Counts queries that are about to scan these boxes, so that it is known whether the tree pays. Any thread may call
+  // this.
   void expect(std::size_t queries, std::span<const base::Box> boxes) const;
 
   // Whether the tree holds all boxes but the loose ones. If not, nothing below is to be read.

@@ -223,9 +223,10 @@ struct RecordingPlayer::Implementation {
                                      .layer = layer,
                                      .mask = mask,
                                      .external_id = external_id,
-                                     .key = std::exchange(next_key, std::nullopt)})
+                                     .key = next_key})
                          .world;
     });
+    next_key.reset();
     next_edges.resize(2, 0);
     next_points.clear();
   }
@@ -244,8 +245,9 @@ struct RecordingPlayer::Implementation {
     plane.mask = reader.read<std::uint32_t>();
     plane.external_id = reader.read<std::uint64_t>();
     plane.name = read_text();
-    plane.key = std::exchange(next_key, std::nullopt);
+    plane.key = next_key;
     make([&] { world_number = world->add_plane(plane).world; });
+    next_key.reset();
   }
 
   void set_positions() {

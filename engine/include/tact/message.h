@@ -24,8 +24,9 @@ struct Message {
   std::string_view text;  ///< a sentence with the names of the bodies; valid during the call, empty without memory
 };
 
-/// Called at the end of World::detect(), in the order of the pairs, and of World::add_body(), on their thread. It must
-/// neither throw nor call the world.
+/// Called at the end of World::detect(), in the order of the pairs, and in World::add_body(), before the body is added,
+/// on their thread. It must not call the world. What it throws comes out of the call: detect() has made its step then,
+/// and add_body() has changed nothing.
 using MessageFunction = std::function<void(const Message&)>;
 
 }  // namespace tact

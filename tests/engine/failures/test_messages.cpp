@@ -2,6 +2,7 @@
 #include <tact/tact.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,26 @@ TEST(Messages, NoneWhereNoLimitIsReached) {
   std::int64_t limits = 0;
   EXPECT_TRUE(told_by_a_wild_crowd(100, 1, limits).empty());
   EXPECT_EQ(limits, 0);
+}
+
+TEST(Messages, WhatTheFunctionThrowsComesOutOfAddBodyAndNothingIsAdded) {
+  Mesh open = blob(1, 0.5, 0.4, 1);
+  open.facets.conservativeResize(3, open.facets.cols() - 1);
+  bool throws = true;
+  tact::World world({.on_message = [&](const Message& message) {
+    EXPECT_FALSE(message.text.empty());
+    if (throws) throw std::runtime_error("no");
+  }});
+  const auto add = [&] {
+    return world.add_body({.positions = open.positions, .facets = open.facets, .name = "open", .key = 7});
+  };
+  const BodyId last = world.add_body({.positions = open.positions, .facets = open.facets, .surface = Surface::sheet});
+  world.remove_body(last);
+  EXPECT_THROW(add(), std::runtime_error);
+  EXPECT_EQ(world.body_count(), 0u);
+  throws = false;
+  EXPECT_EQ(add(), (BodyId{.index = last.index, .generation = last.generation + 1, .world = last.world}));
+  EXPECT_EQ(world.body_count(), 1u);
 }
 
 // A sheet of so many cells of 1 m that stands in a flat one of the same body, half as deep as it is high.

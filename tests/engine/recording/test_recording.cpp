@@ -153,6 +153,37 @@ TEST(Recording, PlaysTheBodiesAsTheyWere) {
   EXPECT_EQ(player.world().mask(bodies[3]), 2u);
 }
 
+// A view of what a body has, changed and set again: what it views is gone when the observer is told.
+TEST(Recording, SettingsReadFromTheWorldAndSetAgainAreRecorded) {
+  Recorded recorded(1);
+  World& world = recorded.world;
+  const Eigen::Matrix3Xd positions = tetrahedron_at({0, 0, 0});
+  const Eigen::Matrix3Xi facets = tetrahedron_facets();
+  const BodyId body = world.add_body({.positions = positions, .facets = facets});
+  const std::vector<double> offsets = {0.1, 0.2, 0.3, 0.4};
+  const std::vector<std::uint32_t> labels = {5, 6, 7, 8};
+  world.set_margin(body, 0.5);
+  world.set_feature_settings(body, {.rest_offsets = offsets});
+  world.set_self_contact_filter(body, {.rest_distance = 0.1});
+  FeatureSettings settings = world.feature_settings(body);
+  settings.vertex_labels = labels;
+  world.set_feature_settings(body, settings);
+  SelfContactFilter filter = world.self_contact_filter(body);
+  filter.rings = 1;
+  world.set_self_contact_filter(body, filter);
+  world.detect();
+  RecordingPlayer player(recorded.out.str());
+  while (player.next()) continue;
+  const BodyId played = player.world().bodies().at(0);
+  EXPECT_TRUE(std::ranges::equal(player.world().feature_settings(played).rest_offsets, offsets));
+  EXPECT_TRUE(std::ranges::equal(player.world().feature_settings(played).vertex_labels, labels));
+  const SelfContactFilter now = player.world().self_contact_filter(played);
+  EXPECT_EQ(now.rings, 1);
+  ASSERT_EQ(now.rest_positions.cols(), 4);
+  for (int v = 0; v < 4; ++v)
+    for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(now.rest_positions.column(v)[axis], positions(axis, v));
+}
+
 TEST(Recording, RefusedCallsAreNotRecorded) {
   Recorded recorded(1);
   World& world = recorded.world;
