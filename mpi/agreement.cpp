@@ -27,17 +27,20 @@ bool World::Implementation::begin(bool for_step) {
   channel.reset_counts();
   stats = {};
   const std::uint64_t of_settings = hash_of(settings);
-  std::array<std::uint64_t, 7> all{parts.any_moved() || !removed.empty(),
+  std::array<std::uint64_t, 8> all{parts.any_moved() || !removed.empty(),
                                    !new_keys.empty() || !gone_keys.empty(),
                                    !exclusions.empty(),
                                    of_settings,
                                    ~of_settings,
                                    shared_hash,
-                                   ~shared_hash};
+                                   ~shared_hash,
+                                   lost_ghost};
   channel.largest(all);
   if (all[3] != ~all[4]) throw Error(ErrorCode::bad_settings, "the ranks have different settings");
   if (all[5] != ~all[6])
     throw Error(ErrorCode::invalid_argument, "the ranks hold different bodies that every rank should hold");
+  if (all[7] != 0) drop_ghosts(true);
+  lost_ghost = false;
   if (all[1] != 0) update_directory();
   if (all[2] != 0) send_exclusions();
   if (for_step && settings.rebalance_above > 0.0 && imbalance > settings.rebalance_above) rebalance();

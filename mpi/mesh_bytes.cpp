@@ -6,6 +6,7 @@ namespace {
 
 template <class Scalar, int kRows>
 void put(ByteWriter& to, const Columns<Scalar, kRows>& columns) {
+  if (columns.rows() != kRows) return;  // the world will refuse it, by name
   to.put(static_cast<std::uint64_t>(columns.cols() * kRows));
   for (std::ptrdiff_t i = 0; i < columns.cols(); ++i) {
     for (const Scalar number : columns.column(i)) to.put(number);

@@ -127,15 +127,28 @@ void World::Implementation::exclude_here(const ExcludedPair& pair, bool wanted) 
 }
 
 // A body comes of the key of a ghost: its owner has removed that one, or the next call together refuses the key.
-void World::Implementation::forget_ghost(std::uint64_t key) {
+// Its owner may have removed the body, and another come with its key. If add() fails the owner is told to send it anew.
+template <class Add>
+BodyId World::Implementation::add_in_place_of_ghost(std::uint64_t key, const Add& add) {
+  const bool was_ghost = forget_ghost(key);
+  try {
+    return add();
+  } catch (...) {
+    lost_ghost = lost_ghost || was_ghost;
+    throw;
+  }
+}
+
+bool World::Implementation::forget_ghost(std::uint64_t key) {
   held.shapes.erase(key);
   const auto ghost = held.ghosts.find(key);
-  if (ghost == held.ghosts.end()) return;
+  if (ghost == held.ghosts.end()) return false;
   const auto [id, owner] = ghost->second;
   held.gone[id] = {key, owner, true};
   parts.remove_copy(id);
   held.drop(id);
   held.ghosts.erase(ghost);
+  return true;
 }
 
 HostOrder World::Implementation::order_of_new(BodyId id, std::uint64_t key) const {
@@ -188,10 +201,8 @@ void World::add_body(const BodyDefinition& definition, Holders holders) {
   const bool is_shared = holders == Holders::every_rank;
   if (is_shared && definition.motion != Motion::fixed)
     refuse(ErrorCode::invalid_argument, key_text(key) + ": what every rank holds is fixed");
-  const std::uint64_t hash = is_shared ? hash_of(definition) : 0;
-  i.forget_ghost(key);
-  const BodyId id = i.local.add_body(definition);
-  if (is_shared) return i.hold_shared(id, key, hash);
+  const BodyId id = i.add_in_place_of_ghost(key, [&] { return i.local.add_body(definition); });
+  if (is_shared) return i.hold_shared(id, key, hash_of(definition));
   i.held.hold(id, {Held::Role::own, i.channel.rank(), i.order_of_new(id, key)});
   i.held.own[key] = {.id = id, .is_rigid = definition.motion == Motion::rigid};
   i.new_keys.push_back(key);
@@ -200,8 +211,7 @@ void World::add_body(const BodyDefinition& definition, Holders holders) {
 void World::add_plane(const PlaneDefinition& definition) {
   Implementation& i = implementation();
   if (!definition.key) refuse_without_key();
-  i.forget_ghost(*definition.key);
-  const BodyId id = i.local.add_plane(definition);
+  const BodyId id = i.add_in_place_of_ghost(*definition.key, [&] { return i.local.add_plane(definition); });
   i.hold_shared(id, *definition.key, hash_of(definition));
 }
 
@@ -412,6 +422,8 @@ void World::move_bodies() {
 void World::exchange(const std::function<std::vector<std::byte>(std::uint64_t key)>& give,
                      const std::function<void(std::uint64_t key, std::span<const std::byte> bytes)>& take) {
   Implementation& i = implementation();
+  if (i.owners_changed)
+    refuse(ErrorCode::wrong_order, "bodies have other owners: exchange() goes by the contacts of a detect() since");
   const auto messages = i.channel.exchange([&](Outbox& outbox) {
     std::map<std::uint64_t, std::set<int>> ranks;
     for (const Contact& contact : i.report.contacts()) {

@@ -102,6 +102,7 @@ struct World::Implementation {
   std::vector<WaitingPair> waiting;
   bool needs_near = false;  // bodies have other owners, or space is cut anew, on any rank
   bool owners_changed = false;
+  bool lost_ghost = false;                         // of this rank: one that its owner counts on is gone
   std::int64_t moved_bodies = 0, moved_bytes = 0;  // since the last step
   bool sends_all = false;                          // the next step looks at every pair
   std::uint64_t step = 0;                          // how often copies were put to sleep or not
@@ -123,7 +124,9 @@ struct World::Implementation {
   HostOrder order_of_new(BodyId id, std::uint64_t key) const;
   void hold_shared(BodyId id, std::uint64_t key, std::uint64_t hash);
   void note_change(OwnBody& body, bool has_moved);
-  void forget_ghost(std::uint64_t key);
+  bool forget_ghost(std::uint64_t key);  // whether there was one
+  template <class Add>
+  BodyId add_in_place_of_ghost(std::uint64_t key, const Add& add);
   void set_excluded(const ExcludedPair& pair, bool wanted);
   void exclude(const ExcludedPair& pair, bool wanted, bool marks);
   void exclude_here(const ExcludedPair& pair, bool wanted);

@@ -15,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -421,6 +422,58 @@ void wrong_use(Size) {
                 "bad_settings: rebalance_above is 0.500000, not 0 or at least 1");
 }
 
+// A body that is refused, of the key of a copy that is here: its owner sends the copy anew.
+void refused_additions(Size) {
+  mpi::World world(MPI_COMM_WORLD, {.world = {.outputs = {.points = true}, .on_message = [](const Message&) {
+                                                throw std::runtime_error("not this one");
+                                              }}});
+  const Mesh mesh = icosphere(1);
+  const auto ball_at = [&](int rank, double z) { return translated(mesh, {1.5 * rank, 0.0, z}); };
+  const Key own = 5 + static_cast<Key>(rank_of_all());
+  const auto move = [&](double z) {
+    const Mesh there = ball_at(rank_of_all(), z);
+    world.set_positions(own, there.positions);
+  };
+  world.add_body(definition_of(ball_at(rank_of_all(), 0.0), own, 0.1));
+  world.detect();
+  const Eigen::MatrixXd flat = Eigen::MatrixXd::Zero(2, mesh.vertex_count());
+  Mesh open = mesh;
+  open.facets.conservativeResize(3, open.facets.cols() - 1);
+  for (const Key key : {own - 1, own + 1}) {
+    const std::string found = caught([&] { world.add_body({.positions = flat, .facets = mesh.facets, .key = key}); });
+    expect(found.starts_with("wrong_size"), "a flat matrix was taken: " + found);
+    move(0.01);
+    world.detect();
+    try {
+      world.add_body(definition_of(open, key, 0.0));
+      expect(false, "what a message threw did not come out");
+    } catch (const std::runtime_error& thrown) {
+      expect(thrown.what() == std::string("not this one"), thrown.what());
+    }
+    expect(!world.owns(key) && world.body_count() == 1, "a refused body was added");
+    move(0.02);
+    world.detect();
+  }
+  const std::vector<int> vertices(static_cast<std::size_t>(mesh.vertex_count()), 0);
+  expect(caught([&] {
+           world.set_facets(own, {.positions = flat, .facets = mesh.facets, .vertex_map = vertices});
+         }).starts_with("wrong_size"),
+         "facets with a flat matrix were taken");
+  const auto contacts = static_cast<int>(world.detect().contacts().size());
+  const int neighbors = (rank_of_all() > 0 ? 1 : 0) + (rank_of_all() + 1 < count_of_ranks() ? 1 : 0);
+  expect(contacts == neighbors, "contacts are missing after a refused body");
+  if (count_of_ranks() == 1) return;
+  world.set_owner(own, (rank_of_all() + 1) % count_of_ranks());
+  world.move_bodies();
+  const auto exchange = [&] {
+    world.exchange([](Key) { return std::vector<std::byte>(); }, [](Key, std::span<const std::byte>) {});
+  };
+  expect_on_all(caught(exchange),
+                "wrong_order: bodies have other owners: exchange() goes by the contacts of a detect() since");
+  world.detect();
+  exchange();
+}
+
 // At rest nothing is sent of positions; velocities of partners come.
 void rest(Size size) {
   mpi::World world(MPI_COMM_WORLD, all_outputs());
@@ -466,6 +519,7 @@ constexpr Case kCases[] = {{"pile", pile},
                            {"one_place", one_place},
                            {"all_moved", all_moved},
                            {"some_moved", some_moved},
+                           {"refused_additions", refused_additions},
                            {"rebalanced", rebalanced},
                            {"rebalanced_by_itself", rebalanced_by_itself},
                            {"emptied", emptied},

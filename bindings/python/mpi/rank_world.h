@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <thread>
 #include <utility>
 
 #include "../src/shared_world.h"
@@ -22,7 +23,12 @@ class RankWorld : public std::enable_shared_from_this<RankWorld> {
     if (busy_) throw Error(ErrorCode::wrong_order, "the world is in the call that this one comes from");
     return world_;
   }
-  const mpi::World& read() const { return world_; }
+  /// @throws Error wrong_order while another thread is in a call of ranks together.
+  const mpi::World& read() const {
+    if (busy_ && thread_ != std::this_thread::get_id())
+      throw Error(ErrorCode::wrong_order, "another thread is in a call of the world");
+    return world_;
+  }
   /// Calls work(world), in which ranks wait for each other, without the interpreter's lock.
   template <class Work>
   void together(const Work& work) {
@@ -33,6 +39,7 @@ class RankWorld : public std::enable_shared_from_this<RankWorld> {
       ~Busy() { busy_ = false; }
       bool& busy_;
     } const busy(busy_);
+    thread_ = std::this_thread::get_id();
     const py::gil_scoped_release released;
     work(world);
   }
@@ -47,6 +54,7 @@ class RankWorld : public std::enable_shared_from_this<RankWorld> {
   mpi::World world_;
   std::uint64_t step_ = 0;
   bool busy_ = false;
+  std::thread::id thread_;  // that is in the call, if busy
 };
 
 /// A report, or something in it, that is used only while it is the world's last.

@@ -163,7 +163,7 @@ void define_report(py::module_& module) {
   py::class_<MotionHandle>(module, "MotionReport", "What World.detect_motion() found of the bodies of this rank.")
       .def_property_readonly(
           "first_time", [](const MotionHandle& report) { return report->first_time(); },
-          "the earliest time of all ranks, 0 to 1; infinity if nothing meets")
+          "the earliest time of all ranks, 0 to 1; infinity if no impact stops")
       .def_property_readonly(
           "impacts", [](const MotionHandle& report) { return list_of(report, report->impacts()); },
           "sorted by keys, time and features")

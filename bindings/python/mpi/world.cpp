@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -53,13 +54,22 @@ py::bytes python_bytes(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+// Copied and let go without the interpreter's lock, as the engine does: only the last copy takes it.
+std::shared_ptr<const py::function> held(const py::function& function) {
+  return {new py::function(function), [](const py::function* last) {
+            const py::gil_scoped_acquire lock;
+            delete last;
+          }};
+}
+
 std::function<Bytes(std::uint64_t)> giving(const py::function& function) {
-  return [function](std::uint64_t key) { return in_python([&] { return bytes_of(function(key)); }); };
+  return
+      [function = held(function)](std::uint64_t key) { return in_python([&] { return bytes_of((*function)(key)); }); };
 }
 
 std::function<void(std::uint64_t, std::span<const std::byte>)> taking(const py::function& function) {
-  return [function](std::uint64_t key, std::span<const std::byte> bytes) {
-    in_python([&] { function(key, python_bytes(bytes)); });
+  return [function = held(function)](std::uint64_t key, std::span<const std::byte> bytes) {
+    in_python([&] { (*function)(key, python_bytes(bytes)); });
   };
 }
 
@@ -73,7 +83,7 @@ std::shared_ptr<RankWorld> make_world(py::handle communicator, const Settings& s
 void set_many_positions(RankWorld& world, const py::dict& positions) {
   std::vector<PositionsArgument> arguments;
   std::vector<std::uint64_t> keys;
-  for (const auto& [key, array] : positions) {
+  for (const auto& [key, array] : items_of(positions)) {
     keys.push_back(py::cast<std::uint64_t>(key));
     arguments.emplace_back(array);
   }
@@ -111,9 +121,9 @@ OfStep<mpi::MotionReport> detect_motion(RankWorld& world, Impacts wanted) {
 }
 
 void set_body_state(RankWorld& world, const py::function& pack, const py::function& unpack, const py::function& drop) {
-  world.use().set_body_state({.pack = giving(pack), .unpack = taking(unpack), .drop = [drop](std::uint64_t key) {
-                                in_python([&] { drop(key); });
-                              }});
+  world.use().set_body_state({.pack = giving(pack),
+                              .unpack = taking(unpack),
+                              .drop = [drop = held(drop)](std::uint64_t key) { in_python([&] { (*drop)(key); }); }});
 }
 
 void exchange(RankWorld& world, const py::function& give, const py::function& take) {
@@ -154,6 +164,7 @@ void together(RankWorld& world) {
 
 using WorldClass = py::class_<RankWorld, std::shared_ptr<RankWorld>>;
 
+// Which bodies there are, and where.
 void define_bodies(WorldClass& world) {
   define_add_body<bool>(
       world,
@@ -189,6 +200,18 @@ void define_bodies(WorldClass& world) {
            "places a rigid body: (3, 3), and (3,) metres")
       .def("set_poses", set_poses, py::arg("poses"), "places many rigid bodies in parallel, all or none")
       .def(
+          "owns", [](RankWorld& w, std::uint64_t key) { return w.read().owns(key); }, py::arg("key"))
+      .def_property_readonly(
+          "bodies", [](RankWorld& w) { return w.read().bodies(); }, "the keys of the bodies of this rank, ascending")
+      .def_property_readonly("body_count", [](RankWorld& w) { return w.read().body_count(); })
+      .def("positions", positions_of, py::arg("key"), "a copy, (V, 3) in metres, as they were set last")
+      .def("__len__", [](RankWorld& w) { return w.read().body_count(); });
+}
+
+// Which of them are tested, and from what distance on.
+void define_filters(WorldClass& world) {
+  world
+      .def(
           "set_layers",
           [](RankWorld& w, std::uint64_t key, std::uint32_t layer, std::uint32_t mask) {
             w.use().set_layers(key, layer, mask);
@@ -209,6 +232,21 @@ void define_bodies(WorldClass& world) {
             w.use().set_rest_offset(key, rest_offset);
           },
           py::arg("key"), py::arg("rest_offset"))
+      .def(
+          "set_self_contact",
+          [](RankWorld& w, std::uint64_t key, bool wanted) { w.use().set_self_contact(key, wanted); }, py::arg("key"),
+          py::arg("wanted"))
+      .def(
+          "set_excluded",
+          [](RankWorld& w, std::uint64_t key, std::uint64_t other, bool excluded) {
+            w.use().set_excluded(key, other, excluded);
+          },
+          py::arg("key"), py::arg("other"), py::arg("excluded"), "one rank that owns one of them says so");
+}
+
+// The same of single vertices and facets.
+void define_feature_settings(WorldClass& world) {
+  world
       .def(
           "set_feature_settings",
           [](RankWorld& w, std::uint64_t key, py::handle rest_offsets, py::handle vertex_labels,
@@ -234,30 +272,13 @@ void define_bodies(WorldClass& world) {
           py::arg("key"), py::kw_only(), py::arg("rings") = 0, py::arg("rest_distance") = 0.0,
           py::arg("rest_positions") = py::none())
       .def(
-          "set_self_contact",
-          [](RankWorld& w, std::uint64_t key, bool wanted) { w.use().set_self_contact(key, wanted); }, py::arg("key"),
-          py::arg("wanted"))
-      .def(
-          "set_excluded",
-          [](RankWorld& w, std::uint64_t key, std::uint64_t other, bool excluded) {
-            w.use().set_excluded(key, other, excluded);
-          },
-          py::arg("key"), py::arg("other"), py::arg("excluded"), "one rank that owns one of them says so")
-      .def(
           "set_excluded_labels",
           [](RankWorld& w, std::uint64_t a, std::uint32_t label_a, std::uint64_t b, std::uint32_t label_b,
              bool excluded, LabelKind kind) {
             w.use().set_excluded_labels({a, label_a, b, label_b, kind}, excluded);
           },
           py::arg("a"), py::arg("label_a"), py::arg("b"), py::arg("label_b"), py::arg("excluded"), py::kw_only(),
-          py::arg("kind") = LabelKind::facet, "one rank that owns one of them says so")
-      .def(
-          "owns", [](RankWorld& w, std::uint64_t key) { return w.read().owns(key); }, py::arg("key"))
-      .def_property_readonly(
-          "bodies", [](RankWorld& w) { return w.read().bodies(); }, "the keys of the bodies of this rank, ascending")
-      .def_property_readonly("body_count", [](RankWorld& w) { return w.read().body_count(); })
-      .def("positions", positions_of, py::arg("key"), "a copy, (V, 3) in metres, as they were set last")
-      .def("__len__", [](RankWorld& w) { return w.read().body_count(); });
+          py::arg("kind") = LabelKind::facet, "one rank that owns one of them says so");
 }
 
 }  // namespace
@@ -299,8 +320,7 @@ void define_world(py::module_& module) {
           "with them")
       .def("restore", restore, py::arg("shares"),
            "together; goes back to what all ranks saved. Each share is given to one rank, whichever, of as many ranks "
-           "as "
-           "there are")
+           "as there are")
       .def("rebalance", together<&mpi::World::rebalance>, "together; cuts space anew and moves bodies")
       .def(
           "set_owner", [](RankWorld& w, std::uint64_t key, int rank) { w.use().set_owner(key, rank); }, py::arg("key"),
@@ -314,6 +334,8 @@ void define_world(py::module_& module) {
                std::to_string(w.read().rank()) + " of " + std::to_string(w.read().rank_count()) + ">";
       });
   define_bodies(world);
+  define_filters(world);
+  define_feature_settings(world);
 }
 
 }  // namespace tact::python

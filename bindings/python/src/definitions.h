@@ -10,12 +10,21 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "arrays.h"
 
 namespace tact::python {
 
 namespace py = pybind11;
+
+/// Keys and values as they are now: what reads them may run Python, which may change the dict.
+inline std::vector<std::pair<py::object, py::object>> items_of(const py::dict& dict) {
+  std::vector<std::pair<py::object, py::object>> items;
+  for (const auto& [key, value] : dict)
+    items.emplace_back(py::reinterpret_borrow<py::object>(key), py::reinterpret_borrow<py::object>(value));
+  return items;
+}
 
 /// A rotation of shape (3, 3) and a translation of shape (3,).
 inline std::pair<Eigen::Matrix3d, Eigen::Vector3d> pose_arguments(py::handle rotation, py::handle translation) {

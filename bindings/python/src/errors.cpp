@@ -47,7 +47,8 @@ void define_errors(py::module_& module) {
                                       "Data that a world cannot take; `code` is an ErrorCode. The world is as it was.",
                                       PyExc_RuntimeError, nullptr);
   g_stale_report = PyErr_NewExceptionWithDoc("tact.StaleReportError",
-                                             "A report was used after its world's next detect() or set_settings().",
+                                             "A report was used after its world's next detect(), set_settings() or "
+                                             "restore().",
                                              PyExc_RuntimeError, nullptr);
   module.add_object("Error", py::reinterpret_borrow<py::object>(g_error));
   module.add_object("StaleReportError", py::reinterpret_borrow<py::object>(g_stale_report));

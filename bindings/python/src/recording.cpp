@@ -7,6 +7,7 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <system_error>
 
@@ -17,6 +18,10 @@ namespace tact::python {
 
 void SharedWorld::record(const std::string& path) {
   World& world = use();
+  std::ostringstream nowhere;
+  Recorder trial(nowhere);
+  world.set_observer(&trial);  // a refused call empties no file
+  world.set_observer(recording_ == nullptr ? nullptr : &recording_->recorder);
   auto recording = std::make_unique<FileRecording>(path);
   if (!recording->file) {
     PyErr_SetString(PyExc_OSError, ("the recording cannot be written: " + path).c_str());

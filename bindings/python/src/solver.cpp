@@ -10,6 +10,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "drawer.h"
+#include "engine/base/floating_point_mode.h"
 #include "motion.h"
 #include "shared_world.h"
 
@@ -121,6 +122,7 @@ Eigen::Matrix3Xd checked(const Stencils& stencils, py::handle given, const std::
 // term(stencil, its number) of each.
 template <class TermOf>
 Terms terms_of(const Stencils& stencils, const TermOf& term_of) {
+  const base::FloatingPointMode mode;
   const auto count = static_cast<py::ssize_t>(stencils.all.size());
   Terms terms{py::array_t<double>(count), py::array_t<double>({count, py::ssize_t{4}, py::ssize_t{3}}),
               py::array_t<double>({count, py::ssize_t{12}, py::ssize_t{12}})};
@@ -144,6 +146,7 @@ Terms gaps(const Stencils& stencils, py::handle positions) {
 
 py::array_t<double> gap_rates(const Stencils& stencils, py::handle velocities) {
   const Eigen::Matrix3Xd of_vertices = checked(stencils, velocities, "velocities");
+  const base::FloatingPointMode mode;
   return column_of<double>(stencils.span(), [&](const Stencil& stencil) {
     return solver::gap_rate(stencil, solver::gather(stencil, of_vertices));
   });

@@ -41,14 +41,6 @@ void set_positions(SharedWorld& world, BodyId body, py::handle positions) {
   world.compute([&](World& w) { w.set_positions(body, x.columns()); });
 }
 
-// Keys and values as they are now: what reads them may run Python, which may change the dict.
-std::vector<std::pair<py::object, py::object>> items_of(const py::dict& dict) {
-  std::vector<std::pair<py::object, py::object>> items;
-  for (const auto& [key, value] : dict)
-    items.emplace_back(py::reinterpret_borrow<py::object>(key), py::reinterpret_borrow<py::object>(value));
-  return items;
-}
-
 void set_many_positions(SharedWorld& world, const py::dict& positions) {
   std::vector<PositionsArgument> arguments;
   std::vector<PositionsUpdate> updates;
@@ -212,7 +204,7 @@ void define_settings(py::module_& module) {
            py::arg("gjk_tolerance") = defaults.gjk_tolerance, py::arg("iteration_limit") = defaults.iteration_limit,
            py::arg("zones") = false, py::arg("patches") = false, py::arg("points") = false, py::arg("curves") = false,
            py::arg("on_message") = py::none(), py::arg("within_reach") = false)
-      .def_readwrite("threads", &Settings::threads, "0 to 1024; 0: as many as OpenMP would use")
+      .def_readwrite("threads", &Settings::threads, "0 to 1024; 0: as many as the machine offers")
       .def_readwrite("accuracy", &Settings::accuracy)
       .def_readwrite("direction", &Settings::direction)
       .def_readwrite("gjk_tolerance", &Settings::gjk_tolerance, "relative gap at which GJK stops, 1e-15 to 0.1")
@@ -222,8 +214,8 @@ void define_settings(py::module_& module) {
           [](Settings& s, const py::object& function) { s.on_message = message_function(function); },
           "called for each limit that a step reached, and for each body that was added as closed and is not. The "
           "report "
-          "has limits as flags and counts. The world refuses "
-          "its calls; what it raises comes out of detect(), after the step")
+          "has limits as flags and counts. The world refuses its calls; what it raises comes out of detect(), after "
+          "the step")
       .def("__repr__", settings_text);
   output<&Outputs::zones>(settings, "zones", "compute Contact.zone_a and zone_b");
   output<&Outputs::points>(settings, "points", "compute Contact.points");
@@ -238,29 +230,22 @@ auto of_body(SharedWorld& world, BodyId body) {
   return (world.read().*kFunction)(body);
 }
 
-}  // namespace
-
-void define_world(py::module_& module) {
-  define_messages(module);
-  define_settings(module);
-  WorldClass class_of_world(module, "World", "A set of bodies and the contacts among them.");
-  define_add_body(class_of_world,
+// Which bodies there are, and where.
+void define_bodies(WorldClass& world) {
+  define_add_body(world,
                   "adds a body; copies its mesh and groups the facets into clusters. Positions: (V, 3) in metres; "
                   "facets: (F, 3), vertices counter-clockwise seen from outside; edges: (E, 2); points: (P,)",
-                  [](SharedWorld& world, const BodyDefinition& definition) {
-                    return added(world, [&](World& w) { return w.add_body(definition); });
+                  [](SharedWorld& w, const BodyDefinition& definition) {
+                    return added(w, [&](World& changed) { return changed.add_body(definition); });
                   });
-  define_add_plane(class_of_world,
+  define_add_plane(world,
                    "adds a half-space, which is fixed and has no vertices: exact at any distance, and without a mesh",
-                   [](SharedWorld& world, const PlaneDefinition& definition) {
-                     return added(world, [&](World& w) { return w.add_plane(definition); });
+                   [](SharedWorld& w, const PlaneDefinition& definition) {
+                     return added(w, [&](World& changed) { return changed.add_plane(definition); });
                    });
-  class_of_world.def(py::init<const Settings&>(), py::arg("settings") = Settings{})
-      .def_property_readonly(
-          "settings", [](SharedWorld& world) { return world.read().settings(); }, "a copy; see set_settings()")
-      .def("set_settings", set_settings, py::arg("settings"), "takes effect with the next step")
+  world
       .def(
-          "remove_body", [](SharedWorld& world, BodyId body) { world.use().remove_body(body); }, py::arg("body"))
+          "remove_body", [](SharedWorld& w, BodyId body) { w.use().remove_body(body); }, py::arg("body"))
       .def("set_positions", set_positions, py::arg("body"), py::arg("positions"), "positions: (V, 3) in metres")
       .def("set_positions", set_many_positions, py::arg("positions"),
            "{body: (V, 3) in metres}: all of them or, after an error, none")
@@ -269,51 +254,55 @@ void define_world(py::module_& module) {
            py::arg("facet_map") = py::list(),
            "gives a body other vertices and facets; `vertex_map` tells of each new vertex which old one it was, or -1. "
            "(V, 3) in metres, (F, 3), and (V,); edges: (E, 2); points: (P,); facet_map: (F,), the old facet whose "
-           "label, "
-           "layer and mask each has, or -1")
+           "label, layer and mask each has, or -1")
       .def("set_pose", set_pose, py::arg("body"), py::arg("rotation"), py::arg("translation"),
            "places a rigid body: a vertex added at p stands at rotation * p + translation. (3, 3), and (3,) metres")
       .def("set_poses", set_poses, py::arg("poses"), "places many rigid bodies in parallel, all or none")
       .def("set_poses", set_pose_arrays, py::arg("bodies"), py::arg("rotations"), py::arg("translations"),
            "the same as arrays: N bodies, (N, 3, 3), and (N, 3) metres")
       .def(
+          "contains", [](SharedWorld& w, BodyId body) { return w.read().contains(body); }, py::arg("body"))
+      .def_property_readonly("body_count", [](SharedWorld& w) { return w.read().body_count(); })
+      .def_property_readonly("bodies", [](SharedWorld& w) { return w.read().bodies(); })
+      .def("__len__", [](SharedWorld& w) { return w.read().body_count(); })
+      .def("__repr__",
+           [](SharedWorld& w) { return "<tact.World of " + std::to_string(w.read().body_count()) + " bodies>"; });
+}
+
+// Which of them are tested, and from what distance on.
+void define_filters(WorldClass& world) {
+  world
+      .def(
           "set_layers",
-          [](SharedWorld& world, BodyId body, std::uint32_t layer, std::uint32_t mask) {
-            world.use().set_layers(body, layer, mask);
+          [](SharedWorld& w, BodyId body, std::uint32_t layer, std::uint32_t mask) {
+            w.use().set_layers(body, layer, mask);
           },
           py::arg("body"), py::arg("layer"), py::arg("mask"))
       .def(
-          "set_group", [](SharedWorld& world, BodyId body, std::uint32_t group) { world.use().set_group(body, group); },
+          "set_group", [](SharedWorld& w, BodyId body, std::uint32_t group) { w.use().set_group(body, group); },
           py::arg("body"), py::arg("group"), "sets the group of a body")
       .def(
           "set_excluded",
-          [](SharedWorld& world, BodyId a, BodyId b, bool excluded) { world.use().set_excluded(a, b, excluded); },
-          py::arg("a"), py::arg("b"), py::arg("excluded"),
+          [](SharedWorld& w, BodyId a, BodyId b, bool excluded) { w.use().set_excluded(a, b, excluded); }, py::arg("a"),
+          py::arg("b"), py::arg("excluded"),
           "sets whether two bodies are excluded from tests, whatever their layers: the two sides of a joint, say")
       .def(
-          "excluded", [](SharedWorld& world, BodyId a, BodyId b) { return world.read().excluded(a, b); }, py::arg("a"),
+          "excluded", [](SharedWorld& w, BodyId a, BodyId b) { return w.read().excluded(a, b); }, py::arg("a"),
           py::arg("b"))
       .def(
-          "set_motion", [](SharedWorld& world, BodyId body, Motion motion) { world.use().set_motion(body, motion); },
+          "set_motion", [](SharedWorld& w, BodyId body, Motion motion) { w.use().set_motion(body, motion); },
           py::arg("body"), py::arg("motion"))
-      .def("detect", detect, "one step: the contacts of the positions as they are now")
       .def(
-          "detect_motion",
-          [](SharedWorld& world, Impacts wanted, std::optional<double> distance, bool bounds) {
-            return detect_motion(world, {.wanted = wanted, .distance = distance, .bounds = bounds});
-          },
-          py::arg("wanted") = Impacts::all, py::arg("distance") = py::none(), py::arg("bounds") = false,
-          "finds what meets between the positions of the last detect() and the current ones, every vertex moving "
-          "straight")
-      .def("save", save, "all that later answers depend on as bytes: settings, bodies, histories")
-      .def("restore", restore, py::arg("bytes"),
-           "goes back to the state of `bytes`, of this world or another: later calls answer as after save(), bit for "
-           "bit")
+          "set_margin", [](SharedWorld& w, BodyId body, double margin) { w.use().set_margin(body, margin); },
+          py::arg("body"), py::arg("margin"))
       .def(
-          "contains", [](SharedWorld& world, BodyId body) { return world.read().contains(body); }, py::arg("body"))
-      .def_property_readonly("body_count", [](SharedWorld& world) { return world.read().body_count(); })
-      .def_property_readonly("bodies", [](SharedWorld& world) { return world.read().bodies(); })
-      .def("name", of_body<&World::name>, py::arg("body"))
+          "set_self_contact", [](SharedWorld& w, BodyId body, bool wanted) { w.use().set_self_contact(body, wanted); },
+          py::arg("body"), py::arg("wanted"));
+}
+
+// What a body is, as it was given.
+void define_properties(WorldClass& world) {
+  world.def("name", of_body<&World::name>, py::arg("body"))
       .def("surface", of_body<&World::surface>, py::arg("body"))
       .def("motion", of_body<&World::motion>, py::arg("body"))
       .def("layer", of_body<&World::layer>, py::arg("body"))
@@ -322,13 +311,6 @@ void define_world(py::module_& module) {
       .def("key", of_body<&World::key>, py::arg("body"), "the key of a body: given, or its index")
       .def("margin", of_body<&World::margin>, py::arg("body"), "the margin of a body, metres")
       .def("self_contact", of_body<&World::self_contact>, py::arg("body"), "whether a body is tested against itself")
-      .def(
-          "set_margin", [](SharedWorld& world, BodyId body, double margin) { world.use().set_margin(body, margin); },
-          py::arg("body"), py::arg("margin"))
-      .def(
-          "set_self_contact",
-          [](SharedWorld& world, BodyId body, bool wanted) { world.use().set_self_contact(body, wanted); },
-          py::arg("body"), py::arg("wanted"))
       .def("vertex_count", of_body<&World::vertex_count>, py::arg("body"))
       .def("facet_count", of_body<&World::facet_count>, py::arg("body"))
       .def("edge_count", of_body<&World::edge_count>, py::arg("body"))
@@ -342,18 +324,46 @@ void define_world(py::module_& module) {
       .def("points", points_of, py::arg("body"), "a copy, (P,), as it was given")
       .def("bounds", bounds_of, py::arg("body"),
            "the box of a body with its margin, metres; that of a plane is infinite. Without a facet, edge or point, "
-           "lower is above upper. Two arrays, lower and upper")
-      .def("__len__", [](SharedWorld& world) { return world.read().body_count(); })
-      .def("__repr__", [](SharedWorld& world) {
-        return "<tact.World of " + std::to_string(world.read().body_count()) + " bodies>";
-      });
-  define_contact_sums(module, class_of_world);
-  define_feature_settings(module, class_of_world);
-  define_queries(module, class_of_world);
-  define_body_queries(module, class_of_world);
-  define_surface_check(module, class_of_world);
-  define_recording(module, class_of_world);
-  define_debug_draw(module, class_of_world);
+           "lower is above upper. Two arrays, lower and upper");
+}
+
+void define_steps(WorldClass& world) {
+  world.def(py::init<const Settings&>(), py::arg("settings") = Settings{})
+      .def_property_readonly(
+          "settings", [](SharedWorld& w) { return w.read().settings(); }, "a copy; see set_settings()")
+      .def("set_settings", set_settings, py::arg("settings"), "takes effect with the next step")
+      .def("detect", detect, "one step: the contacts of the positions as they are now")
+      .def(
+          "detect_motion",
+          [](SharedWorld& w, Impacts wanted, std::optional<double> distance, bool bounds) {
+            return detect_motion(w, {.wanted = wanted, .distance = distance, .bounds = bounds});
+          },
+          py::arg("wanted") = Impacts::all, py::arg("distance") = py::none(), py::arg("bounds") = false,
+          "finds what meets between the positions of the last detect() and the current ones, every vertex moving "
+          "straight")
+      .def("save", save, "all that later answers depend on as bytes: settings, bodies, histories")
+      .def("restore", restore, py::arg("bytes"),
+           "goes back to the state of `bytes`, of this world or another: later calls answer as after save(), bit for "
+           "bit");
+}
+
+}  // namespace
+
+void define_world(py::module_& module) {
+  define_messages(module);
+  define_settings(module);
+  WorldClass world(module, "World", "A set of bodies and the contacts among them.");
+  define_steps(world);
+  define_bodies(world);
+  define_filters(world);
+  define_properties(world);
+  define_contact_sums(module, world);
+  define_feature_settings(module, world);
+  define_queries(module, world);
+  define_body_queries(module, world);
+  define_surface_check(module, world);
+  define_recording(module, world);
+  define_debug_draw(module, world);
 }
 
 }  // namespace tact::python

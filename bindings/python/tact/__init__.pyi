@@ -19,7 +19,7 @@ class Error(RuntimeError):
     code: ErrorCode
 
 class StaleReportError(RuntimeError):
-    """A report was used after its world's next detect() or set_settings()."""
+    """A report was used after its world's next detect(), set_settings() or restore()."""
 
 class ErrorCode:
     """What was wrong with the data of a call."""

@@ -88,7 +88,7 @@ class TACT_API MotionReport {
   MotionReport(const MotionReport&) = delete;
   MotionReport& operator=(const MotionReport&) = delete;
 
-  /// Returns the earliest time of all ranks, 0 to 1; infinity if nothing meets.
+  /// Returns the earliest time of all ranks, 0 to 1; infinity if no impact stops.
   double first_time() const { return first_time_; }
   /// Returns the impacts in which this rank owns a body, sorted by keys, time and features.
   std::span<const Impact> impacts() const { return impacts_; }

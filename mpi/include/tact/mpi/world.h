@@ -60,7 +60,7 @@ struct LabelPair {
 struct BodyState {
   std::function<std::vector<std::byte>(std::uint64_t key)> pack;                    ///< on the old owner
   std::function<void(std::uint64_t key, std::span<const std::byte> bytes)> unpack;  ///< on the new owner
-  std::function<void(std::uint64_t key)> drop;  ///< on the old owner when the body has gone
+  std::function<void(std::uint64_t key)> drop;  ///< on the rank that does not have the body any more
 };
 
 /// A set of bodies over many ranks and the contacts among them. Each body has a key of its own and one owner.
@@ -154,6 +154,7 @@ class TACT_API World {
 
   /// Sends `give(key)` of each body of this rank, once, to every other rank with a body in contact with it, and calls
   /// `take(key, bytes)` for what comes, by ascending keys; together. Velocities for a solver, say.
+  /// Errors: wrong_order (bodies have moved to other ranks since the last detect()).
   void exchange(const std::function<std::vector<std::byte>(std::uint64_t key)>& give,
                 const std::function<void(std::uint64_t key, std::span<const std::byte> bytes)>& take);
 
