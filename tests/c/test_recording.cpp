@@ -92,7 +92,36 @@ TEST_F(RecordingInC, WrongUse) {
   EXPECT_EQ(tact_player_open(nullptr, -1, &player), TACT_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(tact_player_next(player, nullptr, nullptr), TACT_ERROR_INVALID_HANDLE);
   play();
-  EXPECT_EQ(tact_world_record(world_, path_.c_str()), TACT_ERROR_WRONG_ORDER);
+  const std::string kept = in_utf8(folder_.write("kept", "all of it"));
+  EXPECT_EQ(tact_world_record(world_, kept.c_str()), TACT_ERROR_WRONG_ORDER);
+  EXPECT_EQ(std::filesystem::file_size(folder_.path() / "kept"), 9u);
+}
+
+// A state that a recording restores has no motion report: the last one of the played world is gone then.
+TEST_F(RecordingInC, ARestoredStateEndsTheMotionReport) {
+  ASSERT_EQ(tact_world_record(world_, path_.c_str()), TACT_OK);
+  play();
+  size_t count = 0;
+  ASSERT_EQ(tact_world_save(world_, nullptr, 0, &count), TACT_OK);
+  std::vector<char> bytes(count);
+  ASSERT_EQ(tact_world_save(world_, bytes.data(), count, &count), TACT_OK);
+  ASSERT_EQ(tact_world_restore(world_, bytes.data(), count), TACT_OK);
+  ASSERT_EQ(tact_world_detect(world_), TACT_OK);
+  ASSERT_EQ(tact_world_record(world_, nullptr), TACT_OK);
+  tact_player player{};
+  ASSERT_EQ(tact_player_open(path_.c_str(), 1, &player), TACT_OK);
+  tact_world played_world{};
+  ASSERT_EQ(tact_player_world(player, &played_world), TACT_OK);
+  tact_played_step step = TACT_PLAYED_STEP_INIT;
+  bool played = true;
+  for (int i = 0; i < 3; ++i) ASSERT_EQ(tact_player_next(player, &step, &played), TACT_OK);
+  double time = 0.0;
+  ASSERT_EQ(tact_world_detect_motion(played_world, TACT_IMPACTS_ALL), TACT_OK);
+  EXPECT_EQ(tact_motion_first_time(played_world, &time), TACT_OK);
+  ASSERT_EQ(tact_player_next(player, &step, &played), TACT_OK);
+  EXPECT_TRUE(played);
+  EXPECT_EQ(tact_motion_first_time(played_world, &time), TACT_ERROR_WRONG_ORDER);
+  EXPECT_EQ(tact_player_close(player), TACT_OK);
 }
 
 // Reading one throws out of a stream iterator, which was an internal error.

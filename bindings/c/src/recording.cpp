@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <iterator>
+#include <sstream>
 #include <system_error>
 
 #include "handles.h"
@@ -59,6 +60,10 @@ tact_error tact_world_record(tact_world world, const char* path) {
       if (!whole) throw tact::c::kCannotWrite;
       return;
     }
+    std::ostringstream nowhere;
+    tact::Recorder trial(nowhere);
+    entry.world.set_observer(&trial);  // a refused call empties no file
+    entry.world.set_observer(entry.recording == nullptr ? nullptr : &entry.recording->recorder);
     std::ofstream file(tact::c::path_of(path), std::ios::binary);
     if (!file) throw tact::c::kCannotWrite;
     // The recorder keeps the address of the file, so both are made where they stay.
@@ -75,7 +80,13 @@ tact_error tact_player_open(const char* path, int32_t threads, tact_player* play
     auto entry = std::make_shared<PlayerEntry>(tact::c::bytes_of_file(tact::c::path_of(path)), given);
     const std::shared_ptr<tact::World> world(entry, &entry->player.world());  // holds the player as long as it is held
     entry->world = tact::c::add_entry(std::make_shared<WorldEntry>(world));
-    player->handle = tact::c::add_player(std::move(entry));
+    const auto world_handle = entry->world;
+    try {
+      player->handle = tact::c::add_player(std::move(entry));
+    } catch (...) {
+      tact::c::remove_entry(world_handle);
+      throw;
+    }
   });
 }
 
@@ -91,6 +102,7 @@ tact_error tact_player_next(tact_player player, tact_played_step* step, bool* pl
     check_not_null(step, played);
     tact::c::check_struct_size(*step);
     world.report = nullptr;
+    world.motion = nullptr;  // a record may restore a state
     const std::optional<tact::PlayedStep> made = entry.player.next();
     *played = made.has_value();
     if (!made) return;
