@@ -601,10 +601,10 @@ export interface Terms {
 export interface Stencils {
   readonly count: number;
   readonly all: Stencil[];
-  gaps(positions: Positions, hessians?: boolean): Terms;
+  gaps(positions: Positions, options?: { hessians?: boolean }): Terms;
   barriers(positions: Positions, reach: number, options?: { rest?: Positions; hessians?: boolean }): Terms;
-  penalties(positions: Positions, reach: number, hessians?: boolean): Terms;
-  friction(moved: Positions, limits: ArrayLike<number>, smoothing: number, hessians?: boolean): Terms;
+  penalties(positions: Positions, reach: number, options?: { hessians?: boolean }): Terms;
+  friction(moved: Positions, limits: ArrayLike<number>, smoothing: number, options?: { hessians?: boolean }): Terms;
   /** How fast the gap of each grows at such velocities; where they are ways, by how much it grows. */
   gapRates(velocities: Positions): Float64Array;
   /** A colour for each; two of one colour share no vertex below `moving`. */

@@ -56,7 +56,7 @@ export class Stencils {
       return termsOf(take, this.#count, hessians, (terms) => call(name, this.placed(take), this.#count, first, count, ...after, terms));
     });
   }
-  gaps(positions, hessians = false) { return this.#terms("tact_stencil_gaps", positions, "positions", hessians); }
+  gaps(positions, { hessians = false } = {}) { return this.#terms("tact_stencil_gaps", positions, "positions", hessians); }
   barriers(positions, reach, { rest, hessians = false } = {}) {
     return withMemory((take) => {
       const { first, count } = verticesOf(take, positions, "positions"), still = restOf(take, rest, count);
@@ -64,10 +64,10 @@ export class Stencils {
         (terms) => call("tact_stencil_barriers", this.placed(take), this.#count, first, still, count, reach, terms));
     });
   }
-  penalties(positions, reach, hessians = false) {
+  penalties(positions, reach, { hessians = false } = {}) {
     return this.#terms("tact_stencil_penalties", positions, "positions", hessians, () => [reach]);
   }
-  friction(moved, limits, smoothing, hessians = false) {
+  friction(moved, limits, smoothing, { hessians = false } = {}) {
     return this.#terms("tact_stencil_friction", moved, "moved", hessians, (take) => [doubles(take, limits, this.#count, "limits"), smoothing]);
   }
   /** How fast the gap of each grows at velocities of the vertices. */

@@ -33,11 +33,12 @@ const countOf = (array) => `${array.slice(0, -1)}Count`;
 
 /** A set of bodies and the contacts among them. */
 export class World {
-  #handle; #caller = ++callers; #bodies = new Bodies(); #steps = { detect: 0, motion: 0 };
+  #handle; #caller = ++callers; #bodies = new Bodies(); #steps = { detect: 0, motion: 0 }; #onMessage;
 
   constructor(settings = {}) {
     this.#handle = withMemory((take) => result(longAt, 8, "tact_world_create", this.#settings(take, settings)));
     handles.register(this, this.#handle, this);
+    this.#listen(settings.onMessage);
   }
   /** Frees the world's memory now; otherwise it is freed some time after nothing names the world. */
   destroy() {
@@ -47,14 +48,18 @@ export class World {
   }
   get handle() { return this.#handle; }
 
-  #settings(take, { onMessage, ...settings }) {
+  /** What tact calls holds the world weakly: a world that nothing names goes, whatever it listens to. */
+  #listen(onMessage) {
+    this.#onMessage = onMessage;
     callees.message.delete(this.#caller);
-    if (onMessage) {
-      callees.message.set(this.#caller, (at) => {
-        const message = read("tact_message", at);
-        onMessage({ ...message, a: this.bodyOf(message.a), b: this.bodyOf(message.b), text: stringAt(message.text) });
-      });
-    }
+    if (!onMessage) return;
+    const world = new WeakRef(this);
+    callees.message.set(this.#caller, (at) => world.deref()?.#tell(read("tact_message", at)));
+  }
+  #tell(message) {
+    this.#onMessage({ ...message, a: this.bodyOf(message.a), b: this.bodyOf(message.b), text: stringAt(message.text) });
+  }
+  #settings(take, { onMessage, ...settings }) {
     const function_ = onMessage ? library().tact_js_message_function() : 0;
     return make(take, "tact_settings", { threads: 1, ...settings, onMessage: function_, messageUser: this.#caller });
   }
@@ -67,8 +72,9 @@ export class World {
     });
   }
   setSettings(settings) {
-    this.#steps.detect += 1;
     withMemory((take) => call("tact_world_set_settings", this.#handle, this.#settings(take, settings)));
+    this.#steps.detect += 1;
+    this.#listen(settings.onMessage);
   }
 
   /** The one object that stands for a body; null for no body. */
@@ -182,13 +188,13 @@ export class World {
     });
   }
   restore(bytes) {
-    this.#steps.detect += 1;
-    this.#steps.motion += 1;
     withMemory((take) => {
       const at = take(bytes.length);
       viewOf(Uint8Array, at, bytes.length).set(bytes);
       call("tact_world_restore", this.#handle, at, bytes.length);
     });
+    this.#steps.detect += 1;
+    this.#steps.motion += 1;
     this.#bodies.restored();
     this.bodies();
   }

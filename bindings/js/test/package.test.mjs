@@ -204,7 +204,7 @@ test("for solvers: stencils and their energies", () => {
   assert.ok(stencils.count >= 3);
   assert.equal(gradients.length, 12 * stencils.count);
   stencils.all.forEach((stencil, i) => assert.ok(Math.abs(stencil.gap - values[i]) < 1e-15));
-  for (const terms of [stencils.barriers(x, 0.2, { rest: x, hessians: true }), stencils.penalties(x, 0.2, true)]) {
+  for (const terms of [stencils.barriers(x, 0.2, { rest: x, hessians: true }), stencils.penalties(x, 0.2, { hessians: true })]) {
     assert.ok(terms.values.every((value) => value > 0));
     assert.equal(terms.hessians.length, 144 * stencils.count);
   }
