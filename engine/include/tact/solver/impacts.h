@@ -102,10 +102,10 @@ inline std::vector<Stencil> impact_stencils(std::span<const Impact> impacts, std
   for (const Impact& impact : impacts) {
     if (!is_constraint(impact)) continue;
     const auto row_of = [&](BodyId body, const std::array<int, 3>& vertices) {
-      if (body.index >= first_rows.size() ||
-          first_rows[body.index] + *std::ranges::max_element(vertices) >= begin.cols())
+      const int first = first_row(first_rows, body);
+      if (first + *std::ranges::max_element(vertices) >= begin.cols())
         throw Error(ErrorCode::wrong_size, "body " + std::to_string(body.index) + " has no rows");
-      return first_rows[body.index];
+      return first;
     };
     result.push_back(
         stencil(impact, row_of(impact.a, impact.a_vertices), row_of(impact.b, impact.b_vertices), begin, end));

@@ -69,18 +69,22 @@ inline Stencil stencil(const ContactPoint& point, int first_row_a, int first_row
   return result;
 }
 
-/// Returns the stencils of all points of a report but those with planes, in its order; `first_rows` holds the first row
-/// of each body by BodyId::index. Errors: wrong_size (a body has no first row).
+/// Returns the first row of a body; `first_rows` holds that of each by BodyId::index, or a negative number for one that
+/// has none. Errors: wrong_size (it has none).
+inline int first_row(std::span<const int> first_rows, BodyId body) {
+  if (body.index >= first_rows.size() || first_rows[body.index] < 0)
+    throw Error(ErrorCode::wrong_size, "body " + std::to_string(body.index) + " has no first row");
+  return first_rows[body.index];
+}
+
+/// Returns the stencils of all points of a report but those with planes, in its order; see first_row(). Errors:
+/// wrong_size (a body has no first row).
 inline std::vector<Stencil> stencils(const Report& report, std::span<const int> first_rows) {
   std::vector<Stencil> result;
   for (const Contact& contact : report.contacts()) {
-    if (contact.points().empty()) continue;
-    if (std::max(contact.a.index, contact.b.index) >= first_rows.size())
-      throw Error(ErrorCode::wrong_size,
-                  "body " + std::to_string(std::max(contact.a.index, contact.b.index)) + " has no first row");
     for (const ContactPoint& point : contact.points()) {
       if (point.kind == FeaturePair::vertex_plane || point.kind == FeaturePair::plane_vertex) continue;
-      result.push_back(stencil(point, first_rows[contact.a.index], first_rows[contact.b.index]));
+      result.push_back(stencil(point, first_row(first_rows, contact.a), first_row(first_rows, contact.b)));
     }
   }
   return result;

@@ -43,17 +43,13 @@ inline ReachStencil stencil(const ReachPair& pair, int first_row_a, int first_ro
   return {stencil(whole, first_row_a, first_row_b), stencil(closest, first_row_a, first_row_b)};
 }
 
-/// Returns the stencils of all pairs within reach of a report, in its order; `first_rows` holds the first row of each
-/// body by BodyId::index. Errors: wrong_size (a body has no first row).
+/// Returns the stencils of all pairs within reach of a report, in its order; see first_row(). Errors:
+/// wrong_size (a body has no first row).
 inline std::vector<ReachStencil> stencils_within_reach(const Report& report, std::span<const int> first_rows) {
   std::vector<ReachStencil> result;
   for (const Contact& contact : report.contacts()) {
-    if (contact.within_reach().empty()) continue;
-    if (std::max(contact.a.index, contact.b.index) >= first_rows.size())
-      throw Error(ErrorCode::wrong_size,
-                  "body " + std::to_string(std::max(contact.a.index, contact.b.index)) + " has no first row");
     for (const ReachPair& pair : contact.within_reach())
-      result.push_back(stencil(pair, first_rows[contact.a.index], first_rows[contact.b.index]));
+      result.push_back(stencil(pair, first_row(first_rows, contact.a), first_row(first_rows, contact.b)));
   }
   return result;
 }
