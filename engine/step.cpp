@@ -13,14 +13,8 @@
 
 namespace tact {
 
-namespace {
-
-using base::Timer;
-
-}  // namespace
-
 void Step::regroup(Bodies& bodies, int threads) {
-  Timer timer;
+  base::Timer timer;
   const std::vector<Bodies::Regrouped> regrouped = bodies.regroup(threads);
   regrouped_ = static_cast<std::int64_t>(regrouped.size());
   if (!forgotten_) stages_->table.renumber(regrouped);
@@ -42,7 +36,7 @@ void Step::renumber(const Bodies::VertexChange& change, Renumbering&& renumberin
 }
 
 const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh_ms) {
-  Timer timer(settings.outputs.trace ? 0.0 : base::TickCounter::tick_ms());  // a trace needs points in time
+  base::Timer timer(settings.outputs.trace ? 0.0 : base::TickCounter::tick_ms());  // a trace needs points in time
   const TraceEvent::Time begin = timer.start();
   if (forgotten_) start_from_scratch();
   bodies.update_order();
@@ -77,7 +71,7 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
 }
 
 // Stages 2 to 6, and what is found of their facet pairs.
-void Step::look_at_what_moved(Bodies& bodies, const Settings& settings, Timer& timer, StepStats& stats) {
+void Step::look_at_what_moved(Bodies& bodies, const Settings& settings, base::Timer& timer, StepStats& stats) {
   auto& [sweep, planes, table, pairs, containment, points, selves, curves, within_reach, patches, knows_boxes] =
       *stages_;
   std::vector<std::uint32_t> slots(knows_boxes ? 0 : bodies.boxes().size());

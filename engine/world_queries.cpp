@@ -26,7 +26,7 @@ void check_one(const Bodies& bodies, const Query& query) {
   }
 }
 
-// The message of an error tells which query it is of.
+// The message of an error tells which query it is of, if there are several.
 template <class Query>
 void check_queries(const Bodies& bodies, std::span<const Query> queries, std::size_t answers) {
   if (queries.size() != answers) {
@@ -37,6 +37,7 @@ void check_queries(const Bodies& bodies, std::span<const Query> queries, std::si
     try {
       check_one(bodies, queries[i]);
     } catch (const Error& error) {
+      if (queries.size() == 1) throw;
       throw Error(error.code(), "query " + std::to_string(i) + ": " + error.what());
     }
   }

@@ -1,8 +1,6 @@
 #!/usr/bin/env bash
 # Fuzzes the readers of meshes and recordings and the interface for C, under the address and undefined-behaviour
-# sanitizers: scripts/fuzz.sh SECONDS [FORMAT]..., so many for each of obj off ply stl vtp vtk
-# recording state c. Needs clang and the
-# packages of the build.
+# sanitizers, so many seconds for each format; by default all of them.   usage: scripts/fuzz.sh SECONDS [FORMAT]...
 # What it learns stays in build/fuzz/corpus; the corpus of the tree is only read. It ends at the first finding and leaves
 # the input that shows it in build/fuzz.
 set -euo pipefail
@@ -12,6 +10,7 @@ formats=("$@")
 (( ${#formats[@]} > 0 )) || formats=(obj off ply stl vtp vtk recording state c)
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=$root/build/fuzz
+"$root/scripts/setup.sh" sanitizers program tests
 
 mkdir -p "$root/build"
 cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=clang++ \

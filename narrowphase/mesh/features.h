@@ -32,9 +32,8 @@ class Features {
   int edge_end(int cluster) const { return edge_begin(cluster + 1); }
   /// The two vertices, in the order of the caller's numbers. They differ.
   EdgeVertices edge(int edge) const { return edges_[edge]; }
-  /// The same in its cluster, whose vertices are counted as ClusterFacets::corner counts them.
-  std::array<std::uint8_t, 2> edge_in_cluster(int edge) const { return {edge_corner_[0][edge], edge_corner_[1][edge]}; }
-  /// The same of the edges from that one on, one array a vertex; 64 bytes of each may be read.
+  /// The same of the edges from that one on, as their cluster counts vertices (ClusterFacets::corner), one array a
+  /// vertex; 64 bytes of each may be read.
   std::array<const std::uint8_t*, 2> edge_corners(int edge) const {
     return {edge_corner_[0].data() + edge, edge_corner_[1].data() + edge};
   }
