@@ -1,7 +1,15 @@
 # What package managers take: the file of pkg-config, the Debian packages, the target `uninstall`.
 
-set(TACT_PC_LIBDIR ${CMAKE_INSTALL_FULL_LIBDIR})
-set(TACT_PC_INCLUDEDIR ${CMAKE_INSTALL_FULL_INCLUDEDIR})
+# Found from where the file lies: `cmake --install --prefix` may put it elsewhere than the configuration says.
+file(RELATIVE_PATH from_pkgconfig ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+string(REGEX REPLACE "/$" "" TACT_PC_PREFIX "\${pcfiledir}/${from_pkgconfig}")
+set(TACT_PC_LIBDIR "\${prefix}/${CMAKE_INSTALL_LIBDIR}")
+set(TACT_PC_INCLUDEDIR "\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}")
+if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}" OR IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}")
+  set(TACT_PC_PREFIX ${CMAKE_INSTALL_PREFIX})
+  set(TACT_PC_LIBDIR ${CMAKE_INSTALL_FULL_LIBDIR})
+  set(TACT_PC_INCLUDEDIR ${CMAKE_INSTALL_FULL_INCLUDEDIR})
+endif()
 set(threads_option -pthread)
 if(TACT_USES_OPENMP)
   set(threads_option ${OpenMP_CXX_FLAGS})

@@ -226,7 +226,9 @@ void World::set_observer(WorldObserver* observer) {
   const base::FloatingPointMode mode;
   Implementation& i = implementation();
   if (observer != nullptr && i.bodies.ever_held_any())
-    with_memory([] { throw Error(ErrorCode::wrong_order, "an observer is set before the first body is added"); });
+    with_memory([] {
+      throw Error(ErrorCode::wrong_order, "an observer, or a recording, is to be set before the first body is added");
+    });
   i.observer = observer;
   i.observe([&](WorldObserver& told) { told.settings_changed(i.settings); });
 }

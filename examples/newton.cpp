@@ -77,7 +77,8 @@ double iterate(Scene& scene, const Objective& objective, const std::vector<Reach
   Matrix3Xd full = scene.x;
   full.leftCols(scene.moving) += way.reshaped(3, scene.moving);
   scene.world.set_positions(scene.cloth, full.leftCols(scene.moving));
-  double part = std::min(1.0, 0.9 * scene.world.detect_motion(tact::Impacts::first).first_time());
+  const tact::MotionOptions crossing{.wanted = tact::Impacts::first, .distance = 0.0};  // not the reach of the barrier
+  double part = std::min(1.0, 0.9 * scene.world.detect_motion(crossing).first_time());
   const Matrix3Xd from = scene.x;
   for (int halving = 0; halving < 30; ++halving, part *= 0.5) {
     scene.x = from + part * (full - from);

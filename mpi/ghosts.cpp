@@ -42,6 +42,15 @@ Entry read_entry(ByteReader& reader) {
   return entry;
 }
 
+tact::PoseUpdate read_pose(ByteReader& reader) {
+  tact::PoseUpdate pose;
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) pose.rotation(i, k) = reader.get<double>();
+    pose.translation[i] = reader.get<double>();
+  }
+  return pose;
+}
+
 // Settings of vertices and facets that came with an update.
 struct FeaturesOfGhost {
   std::vector<double> rest_offsets, margins;
@@ -240,13 +249,8 @@ void World::Implementation::take_updates(std::span<const Message> messages) {
     const Motion motion = is_rigid ? Motion::rigid : Motion::deformable;
     if (has_positions) local.set_motion(id, motion);
     if (has_positions && is_rigid) {
-      Eigen::Matrix3d rotation;
-      Eigen::Vector3d translation;
-      for (int i = 0; i < 3; ++i) {
-        for (int k = 0; k < 3; ++k) rotation(i, k) = reader.get<double>();
-        translation[i] = reader.get<double>();
-      }
-      local.set_pose(id, rotation, translation);
+      const tact::PoseUpdate pose = read_pose(reader);
+      local.set_pose(id, pose.rotation, pose.translation);
     } else if (has_positions) {
       moved.push_back({id, positions.size()});
       positions.push_back(reader.get_all<double>());

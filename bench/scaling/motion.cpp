@@ -127,6 +127,49 @@ void add_answers(MotionRunner& one, MotionRunner& several, const std::string& na
   }
 }
 
+// Scenes as they move from one step to the next, and carried along as a whole.
+std::vector<Leaps> leaps_of(bool quick) {
+  return {
+      {"cloth on a sphere", [=] { return cloth(quick ? 16 : 80, 24); }, 3},
+      {"a pile of blobs of 320", [=] { return pile(quick ? 27 : 500, 4, 24); }, 3},
+      {"layers of cloth", [=] { return layers(quick ? 3 : 20, quick ? 12 : 60, 24); }, 3},
+      {"blobs on a terrain", [=] { return terrain(quick ? 24 : 120, quick ? 20 : 200, 24); }, 3},
+      {"scattered blobs of 80", [=] { return scattered(quick ? 60 : 2000, 24); }, 6},
+      {"two blobs of 20,480", [=] { return large_pair(quick ? 8 : 32, 24); }, 3},
+      {"a chain of rings", [=] { return chain(quick ? 8 : 60, 24); }, 3},
+      {"cloth on a sphere, carried by its size",
+       [=] {
+         return carried(cloth(quick ? 16 : 80, 24), 3, {1.5, 2.5, 3.0}, 0.0);
+       },
+       3},
+      {"cloth on a sphere, turned by 0.5",
+       [=] {
+         return carried(cloth(quick ? 16 : 80, 24), 3, {0, 0, 0}, kHalfTurn);
+       },
+       3},
+      {"layers of cloth, carried by their size",
+       [=] {
+         return carried(layers(quick ? 3 : 20, quick ? 12 : 60, 24), 3, {1.5, 2.5, 3.0}, 0.0);
+       },
+       3},
+      {"scattered blobs of 80, carried far",
+       [=] {
+         return carried(scattered(quick ? 60 : 2000, 24), 6, {60, 40, 90}, 0.0);
+       },
+       6},
+      {"scattered blobs of 80, turned by 0.5",
+       [=] {
+         return carried(scattered(quick ? 60 : 2000, 24), 6, {0, 0, 0}, kHalfTurn);
+       },
+       6},
+      {"a pile of blobs of 320, turned by 0.5",
+       [=] {
+         return carried(pile(quick ? 27 : 500, 4, 24), 3, {0, 0, 0}, kHalfTurn);
+       },
+       3},
+  };
+}
+
 Table measure_leaps(const std::vector<Leaps>& all, const std::string& only, int threads, double budget_ms,
                     tests::AnswerHash& answers) {
   Table table({"workload", "facets", "pairs of bodies", "candidates", "left by the filter %", "impacts", "1 thread ms",
@@ -257,47 +300,7 @@ int run_motion(const BenchOptions& options) {
   measure_queries();
   const bool quick = options.quick;
   tests::AnswerHash answers;
-  const Table leaps = measure_leaps(
-      {
-          {"cloth on a sphere", [=] { return cloth(quick ? 16 : 80, 24); }, 3},
-          {"a pile of blobs of 320", [=] { return pile(quick ? 27 : 500, 4, 24); }, 3},
-          {"layers of cloth", [=] { return layers(quick ? 3 : 20, quick ? 12 : 60, 24); }, 3},
-          {"blobs on a terrain", [=] { return terrain(quick ? 24 : 120, quick ? 20 : 200, 24); }, 3},
-          {"scattered blobs of 80", [=] { return scattered(quick ? 60 : 2000, 24); }, 6},
-          {"two blobs of 20,480", [=] { return large_pair(quick ? 8 : 32, 24); }, 3},
-          {"a chain of rings", [=] { return chain(quick ? 8 : 60, 24); }, 3},
-          {"cloth on a sphere, carried by its size",
-           [=] {
-             return carried(cloth(quick ? 16 : 80, 24), 3, {1.5, 2.5, 3.0}, 0.0);
-           },
-           3},
-          {"cloth on a sphere, turned by 0.5",
-           [=] {
-             return carried(cloth(quick ? 16 : 80, 24), 3, {0, 0, 0}, kHalfTurn);
-           },
-           3},
-          {"layers of cloth, carried by their size",
-           [=] {
-             return carried(layers(quick ? 3 : 20, quick ? 12 : 60, 24), 3, {1.5, 2.5, 3.0}, 0.0);
-           },
-           3},
-          {"scattered blobs of 80, carried far",
-           [=] {
-             return carried(scattered(quick ? 60 : 2000, 24), 6, {60, 40, 90}, 0.0);
-           },
-           6},
-          {"scattered blobs of 80, turned by 0.5",
-           [=] {
-             return carried(scattered(quick ? 60 : 2000, 24), 6, {0, 0, 0}, kHalfTurn);
-           },
-           6},
-          {"a pile of blobs of 320, turned by 0.5",
-           [=] {
-             return carried(pile(quick ? 27 : 500, 4, 24), 3, {0, 0, 0}, kHalfTurn);
-           },
-           3},
-      },
-      options.only, threads, budget_ms, answers);
+  const Table leaps = measure_leaps(leaps_of(quick), options.only, threads, budget_ms, answers);
   leaps.print();
   if (!options.only.empty()) {
     print_answer_line(answers);

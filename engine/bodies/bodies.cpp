@@ -264,7 +264,8 @@ void Bodies::set_margin(BodyId id, double margin) {
   const double least = std::max(rest_offsets_[id.index], body.arrays ? body.arrays->largest_rest_offset : 0.0);
   if (margin < least)
     throw Error(ErrorCode::invalid_argument, quoted(body.name) + ": margin is " + base::text_of(margin) +
-                                                 ", less than a rest offset of " + base::text_of(least));
+                                                 ", less than a rest offset of " + base::text_of(least) +
+                                                 "; set that first");
   if (body.arrays != nullptr && margin < body.arrays->largest_margin)
     throw Error(ErrorCode::invalid_argument, quoted(body.name) + ": margin is " + base::text_of(margin) +
                                                  ", less than that of a vertex, " +
@@ -434,7 +435,8 @@ const Body& Bodies::at(BodyId id) const {
   if (!contains(id)) {
     const bool was_given = id.index < generations_.size() && id.generation <= generations_[id.index];
     throw Error(ErrorCode::stale_body,
-                text() + (was_given ? " names a body that was removed" : " was never given out"));
+                text() + (was_given ? " names a body that was removed, or added after the state that was restored"
+                                    : " was never given out"));
   }
   return *slots_[id.index].body;
 }

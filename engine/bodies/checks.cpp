@@ -19,19 +19,30 @@ constexpr std::ptrdiff_t kLargestCount = std::numeric_limits<int>::max() / 4;
 
 constexpr double kLargestLengthError = 1e-9;  // of a normal; that of a rotation is the same
 
+std::size_t size_of(NumberKind kind) {
+  if (kind == NumberKind::float64) return sizeof(double);
+  return kind == NumberKind::uint16 ? sizeof(std::uint16_t) : sizeof(float);
+}
+
 template <class Scalar, int kRows>
 void check_columns(const Columns<Scalar, kRows>& m, const char* what, const std::string& name) {
   constexpr bool kCoordinates = std::is_same_v<Scalar, double>;
   const bool known = m.kind() <= NumberKind::uint16 && (m.kind() <= NumberKind::float64) == kCoordinates;
+  if (m.rows() != kRows)
+    throw Error(ErrorCode::wrong_size, quoted(name) + ": the matrix of " + what + " is " + std::to_string(m.rows()) +
+                                           " x " + std::to_string(m.cols()) + ", not " + std::to_string(kRows) +
+                                           " x N");
   if (!known || (m.first() == nullptr && m.cols() > 0)) {
     throw Error(ErrorCode::wrong_size, quoted(name) + ": the array of " + what +
                                            (known          ? " is null"
                                             : kCoordinates ? " holds no float32 or float64"
                                                            : " holds no int32, uint32 or uint16"));
   }
-  if (m.rows() == kRows) return;
-  throw Error(ErrorCode::wrong_size, quoted(name) + ": the matrix of " + what + " is " + std::to_string(m.rows()) +
-                                         " x " + std::to_string(m.cols()) + ", not " + std::to_string(kRows) + " x N");
+  const auto column_bytes = static_cast<std::ptrdiff_t>(kRows * size_of(m.kind()));
+  if (m.cols() > 1 && m.stride_bytes() != 0 && std::abs(m.stride_bytes()) < column_bytes)
+    throw Error(ErrorCode::wrong_size, quoted(name) + ": the columns of " + what + " are " +
+                                           std::to_string(m.stride_bytes()) + " bytes apart, but each is of " +
+                                           std::to_string(column_bytes));
 }
 
 [[noreturn]] void refuse_corner(const std::string& name, const char* what, std::size_t which, long long vertex,

@@ -409,6 +409,7 @@ struct RecordingPlayer::Implementation {
                                               message);
   }
 
+  std::unique_ptr<const std::string> kept = {};  // what is read, if it was given away
   ByteReader reader;
   PlayOptions options;
   std::uint32_t version = 0;
@@ -427,6 +428,10 @@ struct RecordingPlayer::Implementation {
 
 RecordingPlayer::RecordingPlayer(std::string_view bytes, const PlayOptions& options)
     : implementation_(with_memory(kNoMemory, [&] { return std::make_unique<Implementation>(bytes, options); })) {}
+RecordingPlayer::RecordingPlayer(std::unique_ptr<const std::string> bytes, const PlayOptions& options)
+    : RecordingPlayer(std::string_view(*bytes), options) {
+  implementation_->kept = std::move(bytes);
+}
 RecordingPlayer::~RecordingPlayer() = default;
 RecordingPlayer::RecordingPlayer(RecordingPlayer&&) noexcept = default;
 RecordingPlayer& RecordingPlayer::operator=(RecordingPlayer&&) noexcept = default;

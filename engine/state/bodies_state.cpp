@@ -133,6 +133,19 @@ void StateFields::read_neighbors(StateReader& reader, Body& body) {
   find_neighbors(filter, {&body.mesh, body.features.get()});
 }
 
+// A rigid body that was put into its slot as it was added: where it stands.
+void StateFields::place_rigid(Bodies& bodies, std::uint32_t slot, const MeshState& state) {
+  const BodyId id{.index = slot};
+  bodies.check_pose(update_of(id, state.pose));
+  if (state.is_on_its_way) bodies.check_pose(update_of(id, state.begin_pose));
+  Bodies::Slot& put = bodies.slots_[slot];
+  put.rigid->begin_pose = state.begin_pose;
+  if (state.pose == narrowphase::Pose{}) return;
+  put.rigid->pose.set(state.pose);
+  bodies.boxes_[slot] = base::grown(put.body->mesh.rough_box(), bodies.margins_[slot]);
+  bodies.kdops_.forget(slot);
+}
+
 // Reads a body into a slot that is there: first where it was in the last step, then where it is now.
 void StateFields::read_body(StateReader& reader, Bodies& bodies, std::uint32_t slot) {
   constexpr const char* kName = "of a state";
@@ -186,15 +199,7 @@ void StateFields::read_body(StateReader& reader, Bodies& bodies, std::uint32_t s
   put.begin = state.is_on_its_way ? Bodies::Begin::kept : Bodies::Begin::here;
   bodies.groupings_.entries_[slot] = grouping;
   if (grouping.decayed) bodies.groupings_.decayed_.push_back(slot);
-  if (!place.is_rigid) return;
-  const BodyId id{.index = slot};
-  bodies.check_pose(update_of(id, state.pose));
-  if (state.is_on_its_way) bodies.check_pose(update_of(id, state.begin_pose));
-  put.rigid->begin_pose = state.begin_pose;
-  if (state.pose == narrowphase::Pose{}) return;
-  put.rigid->pose.set(state.pose);
-  bodies.boxes_[slot] = base::grown(put.body->mesh.rough_box(), place.margin);
-  bodies.kdops_.forget(slot);
+  if (place.is_rigid) place_rigid(bodies, slot, state);
 }
 
 void StateFields::add_slots(Bodies& bodies, std::size_t count) {

@@ -357,6 +357,7 @@ struct StateFields {
   static MeshState mesh_state(const Bodies& bodies, std::uint32_t slot);
   static void write_body(const Bodies& bodies, std::uint32_t slot, const MeshState& mesh, StateWriter& writer);
   static void read_body(StateReader& reader, Bodies& bodies, std::uint32_t slot);
+  static void place_rigid(Bodies& bodies, std::uint32_t slot, const MeshState& state);
   static void read_neighbors(StateReader& reader, Body& body);
 
   // Of whole worlds: bodies_state.cpp, step_state.cpp. `gone`, sorted, are bodies that were removed since the last step

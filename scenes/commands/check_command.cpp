@@ -203,13 +203,12 @@ void check(const CheckOptions& options, std::ostream& out) {
   const Ending ending = frame < frames ? Ending::interrupted : Ending::complete;
   if (table && ending == Ending::interrupted) fmt::print(out, "\ninterrupted after {} of {} frames\n", frame, frames);
   if (table) table->finish();
+  const auto finish_json = [&] {
+    json->finish(ending);
+    json_file->finish();
+  };
   Failures failures;
-  if (json) {
-    failures.attempt([&] {
-      json->finish(ending);
-      json_file->finish();
-    });
-  }
+  if (json) failures.attempt(finish_json);
   if (recording) failures.attempt([&] { recording->finish(); });
   if (page) failures.attempt([&] { page->finish(ending); });
   failures.report();

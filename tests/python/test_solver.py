@@ -148,6 +148,10 @@ def test_barriers_within_reach_are_those_of_their_distances():
     assert len(pairs) == sum(len(contact.within_reach) for contact in report.contacts) > 0
     x = np.concatenate([positions, positions + [0.03, 0.02, 0.06]])
     values, gradients, hessians = pairs.barriers(x, 0.1)
+    without = pairs.barriers(x, 0.1, hessians=False)
+    assert np.array_equal(without[0], values) and np.array_equal(without[1], gradients)
+    assert without[2].shape == (0, 12, 12)
+    assert (pairs.whole.kinds == tact.StencilKind.edge_edge).any()  # enumerations compare with the numbers of arrays
     d = pairs.closest.gaps
     assert values == pytest.approx(np.where(d < 0.1, -((d - 0.1) ** 2) * np.log(d / 0.1), 0.0), rel=1e-9)
     assert pairs.whole.add_gradients(gradients, len(x)).sum(axis=0) == pytest.approx([0, 0, 0], abs=1e-9)

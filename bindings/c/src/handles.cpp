@@ -88,7 +88,7 @@ tact_error failed_by_exception() noexcept {
   try {
     throw;
   } catch (const Failure& failure) {
-    return failed(failure.error, failure.message);
+    return failed(failure.error, failure.message.c_str());
   } catch (const Error& error) {
     return failed(error_of(error.code()), error.what());
   } catch (const std::bad_alloc&) {

@@ -24,7 +24,7 @@ namespace tact::c {
 // A failure of the C interface's own kind.
 struct Failure {
   tact_error error;
-  const char* message;
+  std::string message;
 };
 
 // A file that a world is recorded to.
@@ -97,11 +97,13 @@ void show(std::span<const Value> values, const ForC** first, size_t* count) {
 
 template <class Value>
 const Value& at(std::span<const Value> values, size_t index) {
-  if (index >= values.size()) throw Failure{TACT_ERROR_INDEX_OUT_OF_RANGE, "an index is not below the count"};
+  if (index >= values.size())
+    throw Failure{TACT_ERROR_INDEX_OUT_OF_RANGE,
+                  "index " + std::to_string(index) + " is not below the count, " + std::to_string(values.size())};
   return values[index];
 }
 
-inline constexpr Failure kBusy{TACT_ERROR_BUSY, "another thread is in a function of this world"};
+inline const Failure kBusy{TACT_ERROR_BUSY, "another thread is in a function of this world"};
 
 // Calls work(entry) while no other thread is in a function of the world.
 template <class Work>

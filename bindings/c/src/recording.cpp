@@ -8,9 +8,9 @@
 namespace tact::c {
 namespace {
 
-constexpr Failure kCannotWrite{TACT_ERROR_FILE,
-                               "the recording cannot be written: a file or a folder that is not there, "
-                               "no right to write, or a full disk"};
+const Failure kCannotWrite{TACT_ERROR_FILE,
+                           "the recording cannot be written: a file or a folder that is not there, "
+                           "no right to write, or a full disk"};
 
 // Of a name in UTF-8, whatever the system's own encoding is.
 std::filesystem::path path_of(const char* name) { return reinterpret_cast<const char8_t*>(name); }

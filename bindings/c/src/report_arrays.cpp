@@ -13,7 +13,9 @@ std::span<Number> array_of(Number* first, size_t rows, size_t width) {
 }
 
 void check_rows(size_t rows, size_t answers) {
-  if (rows != answers) throw Failure{TACT_ERROR_WRONG_SIZE, "rows is not the number of answers"};
+  if (rows != answers)
+    throw Failure{TACT_ERROR_WRONG_SIZE,
+                  "rows is " + std::to_string(rows) + ", but there are " + std::to_string(answers) + " answers"};
 }
 
 }  // namespace

@@ -121,6 +121,22 @@ py::array_t<Number> column_of(std::span<const Item> items, const Value& value) {
   return array;
 }
 
+/// Makes the values of an enumeration equal to the numbers that arrays have for them.
+template <class Enumeration>
+void compare_with_numbers(py::enum_<Enumeration>& of) {
+  const auto are_equal = [](const py::object& value, const py::object& other) -> py::object {
+    if (!PyIndex_Check(other.ptr())) return py::reinterpret_borrow<py::object>(Py_NotImplemented);
+    return py::bool_(py::int_(value).equal(py::int_(other)));
+  };
+  of.attr("__eq__") = py::cpp_function(are_equal, py::name("__eq__"), py::is_method(of));
+  of.attr("__ne__") = py::cpp_function(
+      [are_equal](const py::object& value, const py::object& other) -> py::object {
+        const py::object equal = are_equal(value, other);
+        return equal.ptr() == Py_NotImplemented ? equal : py::bool_(!py::cast<bool>(equal));
+      },
+      py::name("__ne__"), py::is_method(of));
+}
+
 /// Rows of the three numbers that a member of each of `items` holds, of shape (N, 3).
 template <class Number, class Item, class Member>
 py::array_t<Number> rows_of_three(std::span<const Item> items, Member member) {

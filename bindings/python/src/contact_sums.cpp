@@ -93,10 +93,11 @@ py::array_t<bool> joined_minima_of(SharedWorld& world, const OfReport<Report>& r
 }  // namespace
 
 void define_contact_sums(py::module_& module, WorldClass& world) {
-  py::enum_<ContactSum::Kind>(module, "SumKind", "What a sum is over.")
-      .value("contact", ContactSum::Kind::contact, "two bodies, or one with itself")
+  py::enum_<ContactSum::Kind> kind(module, "SumKind", "What a sum is over.");
+  kind.value("contact", ContactSum::Kind::contact, "two bodies, or one with itself")
       .value("patch", ContactSum::Kind::patch, "a patch of the contact before it")
       .value("body", ContactSum::Kind::body, "all contacts of `a`; `b` is no body");
+  compare_with_numbers(kind);
   py::class_<SumArrays>(module, "ContactSums", "The sums of a step. A row a sum.")
       .def_readonly("kinds", &SumArrays::kinds, "(N,) uint8: values of SumKind")
       .def_readonly("bodies", &SumArrays::bodies, "(N, 2) int64: BodyId.index of a and b; -1 for no body")

@@ -87,8 +87,9 @@ void define_parts(py::module_& module) {
 }
 
 void define_points(py::module_& module) {
-  py::enum_<FeaturePair>(module, "FeaturePair", "The features of bodies a and b that are nearest, or that meet.")
-      .value("vertex_facet", FeaturePair::vertex_facet, "a vertex of a, a facet of b")
+  py::enum_<FeaturePair> features(module, "FeaturePair",
+                                  "The features of bodies a and b that are nearest, or that meet.");
+  features.value("vertex_facet", FeaturePair::vertex_facet, "a vertex of a, a facet of b")
       .value("facet_vertex", FeaturePair::facet_vertex, "a facet of a, a vertex of b")
       .value("edge_edge", FeaturePair::edge_edge, "an edge of each")
       .value("vertex_edge", FeaturePair::vertex_edge, "a vertex of a, an edge of b")
@@ -96,6 +97,7 @@ void define_points(py::module_& module) {
       .value("vertex_vertex", FeaturePair::vertex_vertex, "a vertex of each")
       .value("vertex_plane", FeaturePair::vertex_plane, "a vertex of a, b is a plane")
       .value("plane_vertex", FeaturePair::plane_vertex, "a is a plane, a vertex of b");
+  compare_with_numbers(features);
   py::class_<PointArrays>(module, "ContactPoints",
                           "A point on each of two surfaces, where features are nearest or have crossed. A row a point.")
       .def_readonly("kinds", &PointArrays::kinds, "(N,) uint8: values of FeaturePair")
@@ -330,8 +332,7 @@ void define_contact(py::module_& module) {
       .def_property_readonly(
           "within_reach", [](const ContactHandle& contact) { return reach_pairs(contact->within_reach()); },
           "every vertex and facet, and every two edges, nearer than the sum of the margins, if Settings.within_reach "
-          "is "
-          "set; sorted by kind, then by features")
+          "is set; sorted by kind, then by features")
       .def_property_readonly(
           "touching", [](const ContactHandle& contact) { return contact->touching(); },
           "whether facets meet, or a point's gap is below the sum of the rest offsets")
@@ -356,8 +357,7 @@ void define_contact(py::module_& module) {
       .def(
           "hash", [](const ContactHandle& contact) { return contact->hash(); },
           "a number made from every bit of the contact, its facet pairs, points, pairs within reach and patches, but "
-          "for "
-          "counts of work")
+          "for counts of work")
       .def("__repr__", contact_text);
 }
 
@@ -458,8 +458,7 @@ void define_report(py::module_& module) {
       .def(
           "hash", [](const ReportHandle& report) { return report->hash(); },
           "a number made from every bit of candidate pairs, contacts, facet pairs, points and pairs within reach; "
-          "bodies "
-          "enter it by their keys")
+          "bodies enter it by their keys")
       .def("keep", keep, py::arg("into") = py::none(),
            "copies a report. The copy stays valid, and any thread may read it while the next step runs. Its memory is "
            "that of `into`, an earlier copy, which is stale from then on: two in turns take no memory")

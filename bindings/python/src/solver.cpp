@@ -119,27 +119,35 @@ Eigen::Matrix3Xd checked(const Stencils& stencils, py::handle given, const std::
   return values;
 }
 
-// term(stencil, its number) of each.
+// term(stencil, its number) of each; without Hessians their array is empty, and they are not projected.
+enum class Hessians { none, as_they_are, projected };
+
+Hessians projected_if(bool wanted) { return wanted ? Hessians::projected : Hessians::none; }
+
 template <class TermOf>
-Terms terms_of(const Stencils& stencils, const TermOf& term_of) {
+Terms terms_of(const Stencils& stencils, Hessians wanted, const TermOf& term_of) {
   const base::FloatingPointMode mode;
   const auto count = static_cast<py::ssize_t>(stencils.all.size());
+  const py::ssize_t hessian_count = wanted == Hessians::none ? 0 : count;
   Terms terms{py::array_t<double>(count), py::array_t<double>({count, py::ssize_t{4}, py::ssize_t{3}}),
-              py::array_t<double>({count, py::ssize_t{12}, py::ssize_t{12}})};
+              py::array_t<double>({hessian_count, py::ssize_t{12}, py::ssize_t{12}})};
   auto& [values, gradients, hessians] = terms;
   double *value = values.mutable_data(), *gradient = gradients.mutable_data(), *hessian = hessians.mutable_data();
-  for (std::size_t i = 0; i < stencils.all.size(); ++i, gradient += 12, hessian += 144) {
+  for (std::size_t i = 0; i < stencils.all.size(); ++i, gradient += 12) {
     const Term term = term_of(stencils.all[i], i);
     *value++ = term.value;
     solver::Vector12d::Map(gradient) = term.gradient;
-    solver::Matrix12d::Map(hessian) = term.hessian;
+    if (wanted == Hessians::none) continue;
+    solver::Matrix12d::Map(hessian) = wanted == Hessians::projected ? solver::projected(term).hessian : term.hessian;
+    hessian += 144;
   }
   return terms;
 }
 
-Terms gaps(const Stencils& stencils, py::handle positions) {
+Terms gaps(const Stencils& stencils, py::handle positions, bool hessians) {
   const Eigen::Matrix3Xd x = checked(stencils, positions, "positions");
-  return terms_of(stencils, [&](const Stencil& stencil, std::size_t) {
+  const Hessians wanted = hessians ? Hessians::as_they_are : Hessians::none;
+  return terms_of(stencils, wanted, [&](const Stencil& stencil, std::size_t) {
     return solver::gap_of(stencil, solver::gather(stencil, x)).distance;
   });
 }
@@ -152,35 +160,37 @@ py::array_t<double> gap_rates(const Stencils& stencils, py::handle velocities) {
   });
 }
 
-Terms barriers(const Stencils& stencils, py::handle positions, double reach, py::handle rest) {
+Terms barriers(const Stencils& stencils, py::handle positions, double reach, py::handle rest, bool hessians) {
   const Eigen::Matrix3Xd x = checked(stencils, positions, "positions"),
                          unloaded = rest.is_none() ? x : checked(stencils, rest, "rest");
-  return terms_of(stencils, [&](const Stencil& stencil, std::size_t) {
+  return terms_of(stencils, projected_if(hessians), [&](const Stencil& stencil, std::size_t) {
     const double threshold = rest.is_none() ? 0.0 : solver::mollifier_threshold(solver::gather(stencil, unloaded));
-    return solver::projected(solver::barrier_term(stencil, solver::gather(stencil, x), reach, threshold));
+    return solver::barrier_term(stencil, solver::gather(stencil, x), reach, threshold);
   });
 }
 
-Terms reach_barriers(const ReachStencils& pairs, py::handle positions, double reach, py::handle rest) {
+Terms reach_barriers(const ReachStencils& pairs, py::handle positions, double reach, py::handle rest, bool hessians) {
   const Eigen::Matrix3Xd x = checked(pairs.whole, positions, "positions"),
                          unloaded = rest.is_none() ? x : checked(pairs.whole, rest, "rest");
-  return terms_of(pairs.whole, [&](const Stencil& whole, std::size_t i) {
+  return terms_of(pairs.whole, projected_if(hessians), [&](const Stencil& whole, std::size_t i) {
     const double threshold = rest.is_none() ? 0.0 : solver::mollifier_threshold(solver::gather(whole, unloaded));
-    return solver::projected(solver::barrier_term({whole, pairs.closest.all[i]}, x, reach, threshold));
+    return solver::barrier_term({whole, pairs.closest.all[i]}, x, reach, threshold);
   });
 }
 
-Terms penalties(const Stencils& stencils, py::handle positions, double reach) {
+Terms penalties(const Stencils& stencils, py::handle positions, double reach, bool hessians) {
   const Eigen::Matrix3Xd x = checked(stencils, positions, "positions");
-  return terms_of(stencils, [&](const Stencil& stencil, std::size_t) {
-    return solver::projected(solver::penalty_term(stencil, solver::gather(stencil, x), reach));
+  return terms_of(stencils, projected_if(hessians), [&](const Stencil& stencil, std::size_t) {
+    return solver::penalty_term(stencil, solver::gather(stencil, x), reach);
   });
 }
 
-Terms friction(const Stencils& stencils, py::handle moved, const std::vector<double>& limits, double smoothing) {
+Terms friction(const Stencils& stencils, py::handle moved, const std::vector<double>& limits, double smoothing,
+               bool hessians) {
   const Eigen::Matrix3Xd way = checked(stencils, moved, "moved");
   if (limits.size() != stencils.all.size()) throw py::value_error("limits has not a number for each stencil");
-  return terms_of(stencils, [&](const Stencil& stencil, std::size_t i) {
+  const Hessians wanted = hessians ? Hessians::as_they_are : Hessians::none;
+  return terms_of(stencils, wanted, [&](const Stencil& stencil, std::size_t i) {
     return solver::friction_term(stencil, solver::tangents(stencil.normal), solver::gather(stencil, way), limits[i],
                                  smoothing);
   });
@@ -278,27 +288,32 @@ void define_arrays_of(py::class_<Stencils>& stencils) {
 }  // namespace
 
 void define_solver(py::module_& module) {
-  py::enum_<solver::StencilKind>(module, "StencilKind",
-                                 "The features that a stencil joins, in the order of its vertices.")
-      .value("point_point", solver::StencilKind::point_point, "two vertices")
+  py::enum_<solver::StencilKind> kind(module, "StencilKind",
+                                      "The features that a stencil joins, in the order of its vertices.");
+  kind.value("point_point", solver::StencilKind::point_point, "two vertices")
       .value("point_edge", solver::StencilKind::point_edge, "a vertex, then two of an edge")
       .value("point_facet", solver::StencilKind::point_facet, "a vertex, then three of a facet")
       .value("edge_edge", solver::StencilKind::edge_edge, "two of an edge of a, then two of an edge of b");
+  compare_with_numbers(kind);
   py::class_<Stencils> stencils(module, "Stencils",
                                 "The vertices of a contact point and how it depends on them. A row a stencil.");
   define_arrays_of(stencils);
   const auto positions = py::arg("positions"), reach = py::arg("reach"), moving = py::arg("moving");
+  const auto hessians = py::arg("hessians") = true;
   stencils
-      .def("evaluate_gaps", gaps, positions,
-           "the gaps at positions (V, 3): values (N,), gradients (N, 4, 3), Hessians (N, 12, 12)")
+      .def(
+          "evaluate_gaps", gaps, positions, py::kw_only(), hessians,
+          "the gaps at positions (V, 3): values (N,), gradients (N, 4, 3), Hessians (N, 12, 12), or (0, 12, 12) if they "
+          "are not wanted")
       .def("gap_rates", gap_rates, py::arg("velocities"),
            "(N,): how fast gaps grow if vertices have such velocities (V, 3); where they are ways, by how much they "
            "grow")
-      .def("barriers", barriers, positions, reach, py::kw_only(), py::arg("rest") = py::none(),
+      .def("barriers", barriers, positions, reach, py::kw_only(), py::arg("rest") = py::none(), hessians,
            "the barriers of gaps below `reach` metres; `rest` (V, 3) for the mollifier of nearly parallel edges. "
            "Hessians are positive semidefinite")
-      .def("penalties", penalties, positions, reach, "the penalties of gaps below `reach` metres")
-      .def("friction", friction, py::arg("moved"), py::arg("limits"), py::arg("smoothing"),
+      .def("penalties", penalties, positions, reach, py::kw_only(), hessians,
+           "the penalties of gaps below `reach` metres")
+      .def("friction", friction, py::arg("moved"), py::arg("limits"), py::arg("smoothing"), py::kw_only(), hessians,
            "the potentials of friction for the ways `moved` (V, 3) of vertices, of at most `limits` (N,) newtons")
       .def("colors", colors, moving, "(N,): stencils of one colour share no vertex below `moving`")
       .def(
@@ -317,7 +332,7 @@ void define_solver(py::module_& module) {
                     "all vertices of both features: what the mollifier of nearly parallel edges depends on")
       .def_readonly("closest", &ReachStencils::closest,
                     "those of the closest features alone: what gap and friction depend on")
-      .def("barriers", reach_barriers, positions, reach, py::kw_only(), py::arg("rest") = py::none(),
+      .def("barriers", reach_barriers, positions, reach, py::kw_only(), py::arg("rest") = py::none(), hessians,
            "the barriers of distances below `reach` metres, terms of `whole`; `rest` (V, 3) for the mollifier. "
            "Hessians are positive semidefinite")
       .def("__len__", [](const ReachStencils& pairs) { return pairs.whole.all.size(); });

@@ -213,9 +213,8 @@ void define_settings(py::module_& module) {
           "on_message", [](const Settings& s) { return python_function(s.on_message); },
           [](Settings& s, const py::object& function) { s.on_message = message_function(function); },
           "called for each limit that a step reached, and for each body that was added as closed and is not. The "
-          "report "
-          "has limits as flags and counts. The world refuses its calls; what it raises comes out of detect(), after "
-          "the step")
+          "report has limits as flags and counts. The world refuses its calls; what it raises comes out of detect(), "
+          "after the step")
       .def("__repr__", settings_text);
   output<&Outputs::zones>(settings, "zones", "compute Contact.zone_a and zone_b");
   output<&Outputs::points>(settings, "points", "compute Contact.points");

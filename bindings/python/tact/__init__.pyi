@@ -537,7 +537,12 @@ class ReachStencils:
     def closest(self) -> Stencils:
         """those of the closest features alone: what gap and friction depend on"""
     def barriers(
-        self, positions: npt.NDArray[np.floating], reach: float, *, rest: Optional[npt.NDArray[np.floating]] = None
+        self,
+        positions: npt.NDArray[np.floating],
+        reach: float,
+        *,
+        rest: Optional[npt.NDArray[np.floating]] = None,
+        hessians: bool = True,
     ) -> tuple[Floats, Floats, Floats]:
         """the barriers of distances below `reach` metres, terms of `whole`; `rest` (V, 3) for the mollifier. Hessians are positive semidefinite"""
     def __len__(self) -> int: ...
@@ -576,18 +581,32 @@ class Stencils:
     @property
     def ids(self) -> npt.NDArray[np.uint64]:
         """(N,): that of the contact point"""
-    def evaluate_gaps(self, positions: npt.NDArray[np.floating]) -> tuple[Floats, Floats, Floats]:
-        """the gaps at positions (V, 3): values (N,), gradients (N, 4, 3), Hessians (N, 12, 12)"""
+    def evaluate_gaps(
+        self, positions: npt.NDArray[np.floating], *, hessians: bool = True
+    ) -> tuple[Floats, Floats, Floats]:
+        """the gaps at positions (V, 3): values (N,), gradients (N, 4, 3), Hessians (N, 12, 12), or (0, 12, 12) if they are not wanted"""
     def gap_rates(self, velocities: npt.NDArray[np.floating]) -> Floats:
         """(N,): how fast gaps grow if vertices have such velocities (V, 3); where they are ways, by how much they grow"""
     def barriers(
-        self, positions: npt.NDArray[np.floating], reach: float, *, rest: Optional[npt.NDArray[np.floating]] = None
+        self,
+        positions: npt.NDArray[np.floating],
+        reach: float,
+        *,
+        rest: Optional[npt.NDArray[np.floating]] = None,
+        hessians: bool = True,
     ) -> tuple[Floats, Floats, Floats]:
         """the barriers of gaps below `reach` metres; `rest` (V, 3) for the mollifier of nearly parallel edges. Hessians are positive semidefinite"""
-    def penalties(self, positions: npt.NDArray[np.floating], reach: float) -> tuple[Floats, Floats, Floats]:
+    def penalties(
+        self, positions: npt.NDArray[np.floating], reach: float, *, hessians: bool = True
+    ) -> tuple[Floats, Floats, Floats]:
         """the penalties of gaps below `reach` metres"""
     def friction(
-        self, moved: npt.NDArray[np.floating], limits: npt.ArrayLike, smoothing: float
+        self,
+        moved: npt.NDArray[np.floating],
+        limits: npt.ArrayLike,
+        smoothing: float,
+        *,
+        hessians: bool = True,
     ) -> tuple[Floats, Floats, Floats]:
         """the potentials of friction for the ways `moved` (V, 3) of vertices, of at most `limits` (N,) newtons"""
     def colors(self, moving: int) -> Ints:

@@ -2,12 +2,14 @@
 ///
 ///     std::ofstream file("engine.tactrec", std::ios::binary);
 ///     tact::Recorder recorder(file);
+///     tact::World world;              // goes before the recorder does
 ///     world.set_observer(&recorder);  // before the first body is added
 #pragma once
 
 #include <tact/world.h>
 #include <tact/world_observer.h>
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <iosfwd>
@@ -15,6 +17,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace tact {
 
@@ -81,6 +84,10 @@ class TACT_API RecordingPlayer {
  public:
   /// Reads the head of `bytes`, which outlives the player. Errors: bad_recording, out_of_memory.
   explicit RecordingPlayer(std::string_view bytes, const PlayOptions& options = {});
+  /// The same of a string that is given away: the player keeps it.
+  template <std::same_as<std::string> Bytes>
+  explicit RecordingPlayer(Bytes&& bytes, const PlayOptions& options = {})
+      : RecordingPlayer(std::make_unique<const std::string>(std::move(bytes)), options) {}
   ~RecordingPlayer();
   RecordingPlayer(RecordingPlayer&&) noexcept;
   RecordingPlayer& operator=(RecordingPlayer&&) noexcept;
@@ -102,6 +109,7 @@ class TACT_API RecordingPlayer {
 
  private:
   struct Implementation;
+  RecordingPlayer(std::unique_ptr<const std::string> bytes, const PlayOptions& options);
   std::unique_ptr<Implementation> implementation_;
 };
 
