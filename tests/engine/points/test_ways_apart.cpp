@@ -106,6 +106,9 @@ TEST(WaysApart, DoNotLeadToAndFro) {
     expect_apart(random_crossing(both, both, seed), "two of them, seed " + std::to_string(seed));
   for (const std::uint64_t seed : {8, 38, 599, 689})
     expect_apart(random_crossing(plate, both, seed), "a plate and one, seed " + std::to_string(seed));
+  // Of 10,000 those whose crossings ended beside new ones.
+  for (const std::uint64_t seed : {2212, 2956, 3655, 3694, 4983, 5930, 6372, 9907})
+    expect_apart(random_crossing(plate, both, seed), "a plate beside one, seed " + std::to_string(seed));
   EXPECT_GT(crossings, 6);
 }
 
