@@ -19,6 +19,9 @@ namespace tact::narrowphase {
 
 /// Facets that stand along a direction to 3 degrees do not face it: rounding would choose between them.
 inline constexpr double kFaces = 0.05;
+/// A vertex keeps to facets within 60 degrees of its last normal: a wall at a right angle to them stays another side
+/// however the body turns in a step.
+inline constexpr double kSameSide = 0.5;
 /// Normals agree on a direction if their mean is longer: those of a cap of 37 degrees do, of two walls at a right angle
 /// they do not.
 inline constexpr double kAgree = 0.8;

@@ -21,8 +21,8 @@ bool KeptDirections::may_be(const Crossing& c) {
 }
 
 void KeptDirections::take(int group, Vec3 normal, double gap, bool is_past) {
-  if (group < 0) return;
-  Sum& sum = sums_[static_cast<std::size_t>(group)];
+  if (group < 0 && is_past) return;
+  Sum& sum = group < 0 ? sums_.back() : sums_[static_cast<std::size_t>(group)];
   if (gap < 0.0) {
     sum.of_past = sum.of_past + normal;
     ++sum.past;
@@ -34,7 +34,7 @@ void KeptDirections::take(int group, Vec3 normal, double gap, bool is_past) {
 }
 
 void KeptDirections::find(const Crossing& c, const CrossingGroups& groups) {
-  sums_.assign(static_cast<std::size_t>(groups.count()), {});
+  sums_.assign(static_cast<std::size_t>(groups.count()) + 1, {});
   const auto take_all = [&](const CrossedSurface& surface, std::span<const CarriedNormal> carried) {
     for (const CarriedNormal& one : carried)
       take(groups.group_of(surface, one.vertex), one.normal, one.gap, surface.cut.is_past(one.vertex));
@@ -46,7 +46,9 @@ void KeptDirections::find(const Crossing& c, const CrossingGroups& groups) {
 
 Vec3 KeptDirections::came(int group) const {
   const Sum& sum = sums_[static_cast<std::size_t>(group)];
-  return sum.past > 0 ? mean(sum.of_past, sum.past) : mean(sum.of_others, sum.others);
+  if (sum.past > 0) return mean(sum.of_past, sum.past);
+  if (sum.others > 0) return mean(sum.of_others, sum.others);
+  return mean(sums_.back().of_past, sums_.back().past);
 }
 
 Vec3 KeptDirections::kept(int group) const {

@@ -18,7 +18,7 @@ class KeptDirections {
   /// Whether any crossing may keep a direction. Costs less than to know which.
   static bool may_be(const Crossing& crossing);
   void find(const Crossing& crossing, const CrossingGroups& groups);
-  /// From a to b, unit, of negative gaps, if there are any; zero if points do not agree, or tell nothing.
+  /// From a to b, unit, of negative gaps if there are any; of a new crossing those of ended ones. Zero: nothing agrees.
   Vec3 came(int group) const;
   /// The same of a crossing that keeps its direction; zero if it does not.
   Vec3 kept(int group) const;
@@ -33,7 +33,7 @@ class KeptDirections {
   };
   void take(int group, Vec3 normal, double gap, bool is_past);
 
-  std::vector<Sum> sums_;
+  std::vector<Sum> sums_;  // of groups, and of what is of none any more
 };
 
 }  // namespace tact::narrowphase

@@ -8,9 +8,6 @@ namespace tact::narrowphase {
 
 namespace {
 
-// A vertex keeps to facets within 60 degrees of its last normal: a wall at a right angle to them stays another side
-// however the body turns in a step.
-constexpr double kSameSide = 0.5;
 // How far beyond the hulls' depth an exit may seem to be by rounding; lengths are near 1.
 constexpr double kDepthRounding = 1e-12;
 // A vertex on the surface itself looks for the other side from so far below it. Lengths are near 1.
@@ -54,6 +51,7 @@ const Crossing& PairCrossing::find(const PairCrossingInput& input) {
   ways_apart_.clear();
   const bool any_sheet = a.surface == SurfaceKind::sheet || b.surface == SurfaceKind::sheet;
   if (!any_sheet) find_kept();
+  any_sheet ? separation_.clear() : separation_.find(crossing_);
   // Inside a closed mesh first: the exits from it tell on which side of a sheet it belongs.
   const bool into_a_first = a.surface == SurfaceKind::closed && b.surface == SurfaceKind::sheet;
   find_past(into_a_first ? b : a, into_a_first ? a : b);
@@ -178,6 +176,23 @@ void PairCrossing::find_exits(CrossedSurface& own, const CrossedSurface& other) 
 
 std::optional<NearestExit> PairCrossing::exit_inside(const CrossedSurface& own, const CrossedSurface& other, int vertex,
                                                      int hint) {
+  std::optional<NearestExit> exit;
+  if (!separation_.leads_all()) {
+    exit = own_exit_inside(own, other, vertex, hint);
+    const CarriedNormal* last = carried(own).find(own.mesh.mesh->source_vertex(vertex));
+    const bool is_new = last == nullptr || last->gap >= 0.0;
+    if (!exit || !is_new || !separation_.is_against(own.sign * exit->direction)) return exit;
+  }
+  const Vec3 v = own.scaled().position(vertex), facing = own.sign * separation_.direction();
+  for (const double cosine : {kSameSide, kFaces}) {
+    if (const auto led = exits_.nearest_exit(v, facing, cosine, crossing_.within, hint)) return led;
+  }
+  return exit ? exit : own_exit_inside(own, other, vertex, hint);
+}
+
+// By what the vertex and its patch tell.
+std::optional<NearestExit> PairCrossing::own_exit_inside(const CrossedSurface& own, const CrossedSurface& other,
+                                                         int vertex, int hint) {
   const int source = own.mesh.mesh->source_vertex(vertex), patch = own.cut.patch_of(source);
   const Vec3 v = own.scaled().position(vertex);
   Vec3 facing = facing_of_patch(own, source);

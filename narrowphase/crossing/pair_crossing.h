@@ -22,6 +22,9 @@
 // direction is against it faces that way instead. Where no such exit is local, and the nearest one is against it, the
 // exit leads to facets within 60 degrees of way_apart.h, which starts from it.
 //
+// Vertices of two convex bodies that convex_separation.h leads have exits through facets within 60 degrees of its
+// direction, or else through those that face it.
+//
 // Beyond a sheet. A vertex whose edge the sheet cuts is past it if it is on the other side than its normal in the last
 // step says, or that of its patch. If these had none, of a closed mesh the exits that corners of the sheet have which
 // were not in it before tell, where these agree; or else the contact direction. The exit is the nearest place of the
@@ -33,6 +36,7 @@
 #include <span>
 #include <vector>
 
+#include "narrowphase/crossing/convex_separation.h"
 #include "narrowphase/crossing/crossing.h"
 #include "narrowphase/crossing/crossing_groups.h"
 #include "narrowphase/crossing/kept_directions.h"
@@ -82,6 +86,8 @@ class PairCrossing {
   void find_exits(CrossedSurface& own, const CrossedSurface& other);
   void find_exits_through(CrossedSurface& own, const CrossedSurface& sheet);
   std::optional<NearestExit> exit_inside(const CrossedSurface& own, const CrossedSurface& other, int vertex, int hint);
+  std::optional<NearestExit> own_exit_inside(const CrossedSurface& own, const CrossedSurface& other, int vertex,
+                                             int hint);
   static bool is_local(const NearestExit& exit, const NearestExit& nearest, const ScaledMesh& other, Vec3 v,
                        const std::optional<double>& last_depth);
   static bool is_thicker(const ScaledMesh& other, Vec3 v, const NearestExit& nearest, double distance);
@@ -101,6 +107,7 @@ class PairCrossing {
   std::vector<PatchDirection> patches_;
   CrossingGroups groups_;
   KeptDirections kept_;
+  ConvexSeparation separation_;
   WayApart way_apart_;
   PartOfSurface part_a_, part_b_;
   std::vector<std::optional<Vec3>> ways_apart_;      // of groups, as far as they were wanted

@@ -94,10 +94,9 @@ TEST(CrossingsLong, OfEveryKindHavePointsThatLeadApart) {
           counts.long_ways);
       EXPECT_EQ(counts.without_point, 0) << kKinds[i].name << " and " << kKinds[k].name;
       // Bodies that hold each other, a ring and what goes through it say, cannot be moved apart: of two rings one
-      // in 30. Of convex ones a vertex may keep its side while another one comes in against it: 11 of 18,700 hulls with
-      // plates, tetrahedra and hulls.
+      // in 30. Of convex ones 2 of 42,391 went to and fro for 40 passes.
       const bool may_hold = !kKinds[i].is_convex || !kKinds[k].is_convex;
-      EXPECT_LE(counts.not_apart, counts.crossings / (may_hold ? 20 : 500) + 1)
+      EXPECT_LE(counts.not_apart, counts.crossings / (may_hold ? 20 : 5000) + 1)
           << kKinds[i].name << " and " << kKinds[k].name;
       EXPECT_LE(counts.long_ways, counts.crossings / 10 + 1) << kKinds[i].name << " and " << kKinds[k].name;
     }

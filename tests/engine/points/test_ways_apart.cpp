@@ -106,7 +106,26 @@ TEST(WaysApart, DoNotLeadToAndFro) {
     expect_apart(random_crossing(both, both, seed), "two of them, seed " + std::to_string(seed));
   for (const std::uint64_t seed : {8, 38, 599, 689})
     expect_apart(random_crossing(plate, both, seed), "a plate and one, seed " + std::to_string(seed));
+  // Of 10,000 those whose crossings ended beside new ones.
+  for (const std::uint64_t seed : {2212, 2956, 3655, 3694, 4983, 5930, 6372, 9907})
+    expect_apart(random_crossing(plate, both, seed), "a plate beside one, seed " + std::to_string(seed));
   EXPECT_GT(crossings, 6);
+}
+
+// Vertices came in on one side while others went out on another: of 12,000 states each some of those that stayed in
+// each other, 7 with the plate and 20 with the hull.
+TEST(WaysApart, OfConvexBodiesDoNotLeadToAndFro) {
+  const Mesh spike_of_4 = spike({0.1, 0.2, 0.6}, 0.5), hull = random_hull(20, 3),
+             plate = gridded_box({-0.5, -0.5, -0.03}, {0.5, 0.5, 0.03}, 3);
+  const auto expect_apart = [](const CrossingState& state, const std::string& what) {
+    const Parting parting = part_by_points(state.a, state.b, state.input);
+    EXPECT_GT(parting.passes, 0) << what;
+    EXPECT_LE(parting.passes, 8) << what;
+  };
+  for (const std::uint64_t seed : {733, 4582, 6979, 8339, 8487, 8616, 10298})
+    expect_apart(random_crossing(plate, spike_of_4, seed), "a plate and a spike, seed " + std::to_string(seed));
+  for (const std::uint64_t seed : {969, 1223, 2234, 3357, 3577})
+    expect_apart(random_crossing(spike_of_4, hull, seed), "a spike and a hull, seed " + std::to_string(seed));
 }
 
 // A rod that sinks through another one: up, as far as it came in until it reaches out below.

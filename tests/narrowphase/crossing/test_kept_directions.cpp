@@ -73,5 +73,19 @@ TEST(KeptDirections, AreNoneWhereAVertexStaysOrNothingWasPast) {
   EXPECT_EQ(kept_by_tip(meshes, {.gap_of_corners = 0.5, .gap_of_tip = 0.01}, 1.0), Vec3{});
 }
 
+// A lower corner of the plate was in something, and is a corner of no facet that meets any more.
+TEST(KeptDirections, OfEndedCrossingsAreWhereNewOnesCameFrom) {
+  SpikeInPlate meshes(0.0625);
+  const std::vector<CarriedNormal> corner = {{0, {0, 0, -1}, -0.5}};
+  const Crossing& crossing = meshes.with({.of_a = corner, .of_b = {}, .of_edges = {}});
+  CrossingGroups groups;
+  groups.find(crossing);
+  ASSERT_EQ(groups.count(), 1);
+  KeptDirections directions;
+  directions.find(crossing, groups);
+  EXPECT_EQ(directions.came(0), (Vec3{0, 0, -1}));
+  EXPECT_EQ(directions.kept(0), Vec3{});
+}
+
 }  // namespace
 }  // namespace tact::narrowphase
