@@ -1,8 +1,5 @@
 #include "tests/support/oracles/motion_oracle.h"
 
-#include <CGAL/gmpxx.h>
-#include <CGAL/number_utils.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -13,11 +10,13 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/oracles/exact_numbers.h"
+
 namespace tact::tests {
 namespace {
 
 using narrowphase::MovingVertex;
-using Integer = mpz_class;
+using Integer = ExactInteger;
 
 int sign_of(const Integer& x) { return static_cast<int>(CGAL::sign(x)); }
 
@@ -134,13 +133,9 @@ struct Root {
   // Takes the bracket around the root that doubles find, if f changes its sign in it.
   void jump() {
     std::size_t digits = 0;
-    for (const Integer& c : f) digits = std::max(digits, mpz_sizeinbase(c.get_mpz_t(), 2));
+    for (const Integer& exact : f) digits = std::max(digits, bits_of(exact));
     std::vector<double> c;
-    for (const Integer& exact : f) {
-      long exponent = 0;
-      const double mantissa = mpz_get_d_2exp(&exponent, exact.get_mpz_t());
-      c.push_back(std::ldexp(mantissa, static_cast<int>(exponent - static_cast<long>(digits))));
-    }
+    for (const Integer& exact : f) c.push_back(scaled(exact, -static_cast<long>(digits)));
     const auto at = [&](double t) {
       double sum = 0.0;
       for (std::size_t i = c.size(); i-- > 0;) sum = sum * t + c[i];
