@@ -13,11 +13,7 @@
 #include <vector>
 
 #include "narrowphase/numeric/predicates.h"
-
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
-
+#include "tests/support/environment/subnormals.h"
 #include "tests/support/generators/triangle_pairs.h"
 #include "tests/support/oracles/triangle_oracle.h"
 
@@ -205,11 +201,8 @@ TEST(Orient3d, RoundingModeAndFlushedSubnormalsChangeNothing) {
       ASSERT_EQ(signs_in_mode(pair, [&] { std::fesetround(mode); }), expected)
           << "mode " << mode << " seed " << kSeed + 2 << " pair " << i << ' ' << to_string(pair);
     }
-#if defined(__SSE2__)
-    constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040;
-    ASSERT_EQ(signs_in_mode(pair, [] { _mm_setcsr(_mm_getcsr() | kFlushToZero | kDenormalsAreZero); }), expected)
+    ASSERT_EQ(signs_in_mode(pair, tests::flush_subnormals), expected)
         << "seed " << kSeed + 2 << " pair " << i << ' ' << to_string(pair);
-#endif
   }
 }
 

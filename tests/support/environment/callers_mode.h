@@ -5,9 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
+#include "tests/support/environment/subnormals.h"
 
 namespace tact::tests {
 
@@ -42,10 +40,7 @@ class CallersMode {
     control = static_cast<std::uint16_t>((control & ~0x300u) | settings.x87_precision << 8);
     __asm__ volatile("fldcw %0" : : "m"(control));
 #endif
-#if defined(__SSE2__)
-    constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040;
-    if (settings.flushes) _mm_setcsr(_mm_getcsr() | kFlushToZero | kDenormalsAreZero);
-#endif
+    if (settings.flushes) flush_subnormals();
 #if defined(__GLIBC__)
     std::feclearexcept(FE_ALL_EXCEPT);
     if (settings.traps) feenableexcept(FE_ALL_EXCEPT);
