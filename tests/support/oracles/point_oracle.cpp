@@ -3,7 +3,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <numbers>
 #include <set>
@@ -17,8 +19,11 @@ namespace {
 using Long3 = Eigen::Matrix<long double, 3, 1>;
 using VertexPair = std::pair<int, int>;
 
+using Box = Eigen::AlignedBox3d;
+
 struct LongMesh {
   std::vector<Long3> x;
+  std::vector<Box> boxes;  // of each vertex, in doubles
   std::vector<std::array<int, 3>> facets;
   std::map<VertexPair, std::vector<int>> edges;  // with the third vertices
   std::map<int, std::set<int>> vertices;         // with their neighbours
@@ -26,7 +31,10 @@ struct LongMesh {
 
 LongMesh long_mesh(const Mesh& mesh) {
   LongMesh s;
-  for (int v = 0; v < mesh.vertex_count(); ++v) s.x.push_back(mesh.positions.col(v).cast<long double>());
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    s.x.push_back(mesh.positions.col(v).cast<long double>());
+    s.boxes.emplace_back(Eigen::Vector3d(mesh.positions.col(v)));
+  }
   for (int f = 0; f < mesh.facet_count(); ++f) {
     const std::array<int, 3> c{mesh.facets(0, f), mesh.facets(1, f), mesh.facets(2, f)};
     s.facets.push_back(c);
@@ -71,16 +79,32 @@ class PointOracle {
       : a_(long_mesh(a)), b_(long_mesh(b)), reach_(reach), band_(band) {}
 
   std::map<PointKey, ExpectedPoint> run() {
-    for (const auto& [v, _] : a_.vertices) from_vertex(a_.x[v], v, b_, FeaturePair::vertex_facet);
-    for (const auto& [v, _] : b_.vertices) from_vertex(b_.x[v], v, a_, FeaturePair::facet_vertex);
+    for (const auto& [v, _] : a_.vertices) from_vertex(a_, v, b_, FeaturePair::vertex_facet);
+    for (const auto& [v, _] : b_.vertices) from_vertex(b_, v, a_, FeaturePair::facet_vertex);
     for (const auto& [e, third_e] : a_.edges) {
-      for (const auto& [f, third_f] : b_.edges) between(e, third_e, f, third_f);
+      const Box near = within_reach(a_, {e.first, e.second});
+      for (const auto& [f, third_f] : b_.edges) {
+        if (near.intersects(box_of(b_, {f.first, f.second}))) between(e, third_e, f, third_f);
+      }
     }
     return std::move(found_);
   }
 
  private:
   static const Long3& at(const LongMesh& s, int v) { return s.x[v]; }
+  static Box box_of(const LongMesh& s, std::initializer_list<int> vertices) {
+    Box box;
+    for (const int v : vertices) box.extend(s.boxes[v]);
+    return box;
+  }
+  // What does not meet this box is too far away for a point with the feature of these vertices. Without it, a processor
+  // that has no long double takes minutes for bodies of a thousand facets.
+  Box within_reach(const LongMesh& s, std::initializer_list<int> vertices) const {
+    const Box box = box_of(s, vertices);
+    const double rounding = 1e-15 * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+    const double margin = static_cast<double>(1.001L * reach_ + 10 * band_) + rounding;
+    return {box.min().array() - margin, box.max().array() + margin};
+  }
 
   void add(FeaturePair kind, std::array<int, 3> a, std::array<int, 3> b, const Long3& p, const Long3& q,
            Conditions conditions) {
@@ -100,8 +124,11 @@ class PointOracle {
     }
   }
 
-  void from_vertex(const Long3& v, int vertex, const LongMesh& s, FeaturePair kind) {
+  void from_vertex(const LongMesh& own, int vertex, const LongMesh& s, FeaturePair kind) {
+    const Long3& v = own.x[vertex];
+    const Box near = within_reach(own, {vertex});
     for (const auto& c : s.facets) {
+      if (!near.intersects(box_of(s, {c[0], c[1], c[2]}))) continue;
       const Long3 p = at(s, c[0]), q = at(s, c[1]), r = at(s, c[2]), normal = (q - p).cross(r - p);
       if (!(normal.norm() > 0)) continue;
       Conditions inside;
@@ -114,6 +141,7 @@ class PointOracle {
       add_vertex(kind, vertex, v, c, v - unit.dot(v - p) * unit, inside);
     }
     for (const auto& [edge, third] : s.edges) {
+      if (!near.intersects(box_of(s, {edge.first, edge.second}))) continue;
       const Long3 p = at(s, edge.first), q = at(s, edge.second);
       const long double length = (q - p).norm();
       if (!(length > 0)) continue;
@@ -132,6 +160,7 @@ class PointOracle {
       add_vertex(kind, vertex, v, {edge.first, edge.second, -1}, p + place * along, inside);
     }
     for (const auto& [w, neighbors] : s.vertices) {
+      if (!near.intersects(s.boxes[w])) continue;
       Conditions minimum;
       for (const int u : neighbors) {
         const Long3 way = at(s, u) - at(s, w);
