@@ -1,6 +1,6 @@
 # CGAL::CGAL for another platform, where find_package() does not find it: Debian's package is of the machine that builds.
-# Its headers and those of Boost are of no platform. Without GMP for the platform CGAL computes with the integers of Boost
-# (tests/support/oracles/exact_numbers.h).
+# Its headers and those of Boost are of no platform. Without GMP for the platform CGAL computes with its own MP_Float, and
+# the oracles with the integers of Boost (tests/support/oracles/exact_numbers.h).
 if(TARGET CGAL::CGAL OR NOT CMAKE_CROSSCOMPILING)
   return()
 endif()
@@ -25,5 +25,6 @@ if(TACT_GMP AND TACT_GMPXX AND TACT_MPFR)
   target_compile_definitions(CGAL::CGAL INTERFACE CGAL_USE_GMPXX=1)
   target_link_libraries(CGAL::CGAL INTERFACE ${TACT_GMPXX} ${TACT_MPFR} ${TACT_GMP})
 else()
-  target_compile_definitions(CGAL::CGAL INTERFACE CGAL_DISABLE_GMP=1)
+  # Otherwise CGAL 5.5 takes quotients of Boost's integers, which do not hold every double.
+  target_compile_definitions(CGAL::CGAL INTERFACE CGAL_DISABLE_GMP=1 CGAL_DO_NOT_USE_BOOST_MP=1)
 endif()

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "engine/base/floating_point_mode.h"
-#include "tests/support/environment/subnormals.h"
+#include "tests/support/environment/floating_point_state.h"
 
 namespace {
 
@@ -49,18 +49,20 @@ TEST(FloatingPointMode, GivesTheModeBackWhenAnExceptionPasses) {
 
 TEST(FloatingPointMode, KeepsSubnormalNumbersWhereTheCallerFlushesThem) {
   if (!tact::tests::kCanFlushSubnormals) GTEST_SKIP() << "this processor cannot flush them";
-  std::fenv_t before;
-  std::fegetenv(&before);
-  tact::tests::flush_subnormals();
-  double result = 0.0, operand = 0.0;
+  double result = 0.0, operand = 0.0, flushed_result = 0.0, flushed_operand = 0.0;
+  bool still_flushes = false;
   {
-    const FloatingPointMode mode;
-    result = half_of(kSmallestNormal);
-    operand = sum_of(kTiny, kTiny);
+    const tact::tests::SavedFloatingPointState saved;
+    tact::tests::flush_subnormals();
+    {
+      const FloatingPointMode mode;
+      result = half_of(kSmallestNormal);
+      operand = sum_of(kTiny, kTiny);
+    }
+    flushed_result = half_of(kSmallestNormal);
+    flushed_operand = sum_of(kTiny, kTiny);
+    still_flushes = tact::tests::flushes_subnormals();
   }
-  const double flushed_result = half_of(kSmallestNormal), flushed_operand = sum_of(kTiny, kTiny);
-  const bool still_flushes = tact::tests::flushes_subnormals();
-  std::fesetenv(&before);
   EXPECT_EQ(result, std::numeric_limits<double>::min() / 2);
   EXPECT_EQ(operand, std::numeric_limits<double>::min() / 2);
   EXPECT_EQ(flushed_result, 0.0);

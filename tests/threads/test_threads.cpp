@@ -10,7 +10,7 @@
 
 #include "engine/base/parallel.h"
 #include "tests/support/checks/detection.h"
-#include "tests/support/environment/subnormals.h"
+#include "tests/support/environment/floating_point_state.h"
 #include "tests/support/generators/bodies.h"
 #include "tests/support/generators/body_pairs.h"
 #include "tests/support/hashes/work_hash.h"
@@ -192,13 +192,15 @@ TEST(Threads, FlushToZeroOfTheCallerChangesNothing) {
   for (const double scale : {1.0, 0x1p-1060}) {
     const PreparedSteps steps(scale);
     const std::vector<std::uint64_t> expected = steps.hashes(2);
-    std::fenv_t before;
-    std::fegetenv(&before);
     for (const int threads : {1, 2}) {
-      flush_subnormals();
-      const std::vector<std::uint64_t> found = steps.hashes(threads);
-      const bool still_flushes = flushes_subnormals();
-      std::fesetenv(&before);
+      std::vector<std::uint64_t> found;
+      bool still_flushes = false;
+      {
+        const SavedFloatingPointState saved;
+        flush_subnormals();
+        found = steps.hashes(threads);
+        still_flushes = flushes_subnormals();
+      }
       EXPECT_EQ(found, expected) << "scale " << scale << ", " << threads << " threads";
       EXPECT_TRUE(still_flushes) << "the caller's mode was not given back";
     }
@@ -250,13 +252,11 @@ TEST(Threads, FlushToZeroOfTheCallerChangesNoLargeBody) {
     const std::vector<BodyId> ids = add_bodies(world, std::array{ball, sheet});
     const Mesh moved_sheet = translated(sheet, {0.0, 0.0, 0x1p-1064}),
                moved_ball = translated(ball, {0x1p-1064, 0.0, 0.0});
-    std::fenv_t before;
-    std::fegetenv(&before);
+    const SavedFloatingPointState saved;
     if (flushes) flush_subnormals();
     world.set_positions(
         std::array{PositionsUpdate{ids[0], moved_ball.positions}, PositionsUpdate{ids[1], moved_sheet.positions}});
     const Report& report = world.detect();
-    std::fesetenv(&before);
     return report.contacts().empty() ? std::vector<FacetPair>{}
                                      : std::vector<FacetPair>(report.contacts()[0].facet_pairs().begin(),
                                                               report.contacts()[0].facet_pairs().end());

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "narrowphase/numeric/predicates.h"
-#include "tests/support/environment/subnormals.h"
+#include "tests/support/environment/floating_point_state.h"
 #include "tests/support/generators/triangle_pairs.h"
 #include "tests/support/oracles/triangle_oracle.h"
 
@@ -183,13 +183,11 @@ TEST(Orient3d, PointsInGeneralPositionNeverNeedTheExactPath) {
 // The signs in another floating-point mode; back in the caller's mode afterwards.
 template <class SetMode>
 std::vector<int> signs_in_mode(const TrianglePair& pair, const SetMode& set_mode) {
-  std::fenv_t saved;
-  std::fegetenv(&saved);
+  const tests::SavedFloatingPointState saved;
   set_mode();
   PredicateCounts counts;
   std::vector<int> signs = signs_of(pair, counts);
   signs.push_back(compare_lexicographically(pair.a[0], pair.b[0]));
-  std::fesetenv(&saved);
   return signs;
 }
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tests/support/environment/subnormals.h"
+#include "tests/support/environment/floating_point_state.h"
 
 namespace tact::tests {
 
@@ -32,7 +32,6 @@ inline std::vector<FloatingPointSettings> callers_modes() {
 class CallersMode {
  public:
   explicit CallersMode(const FloatingPointSettings& settings) {
-    std::fegetenv(&saved_);
     std::fesetround(settings.rounding);
 #if defined(__x86_64__) && defined(__GNUC__)
     std::uint16_t control = 0;
@@ -46,12 +45,9 @@ class CallersMode {
     if (settings.traps) feenableexcept(FE_ALL_EXCEPT);
 #endif
   }
-  ~CallersMode() { std::fesetenv(&saved_); }
-  CallersMode(const CallersMode&) = delete;
-  CallersMode& operator=(const CallersMode&) = delete;
 
  private:
-  std::fenv_t saved_;
+  SavedFloatingPointState saved_;
 };
 
 /// What call() returns in a caller's mode.

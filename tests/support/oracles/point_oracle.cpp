@@ -19,11 +19,11 @@ namespace {
 using Long3 = Eigen::Matrix<long double, 3, 1>;
 using VertexPair = std::pair<int, int>;
 
-using Box = Eigen::AlignedBox3d;
+using FeatureBox = Eigen::AlignedBox3d;
 
 struct LongMesh {
   std::vector<Long3> x;
-  std::vector<Box> boxes;  // of each vertex, in doubles
+  std::vector<FeatureBox> boxes;  // of each vertex, in doubles
   std::vector<std::array<int, 3>> facets;
   std::map<VertexPair, std::vector<int>> edges;  // with the third vertices
   std::map<int, std::set<int>> vertices;         // with their neighbours
@@ -82,7 +82,7 @@ class PointOracle {
     for (const auto& [v, _] : a_.vertices) from_vertex(a_, v, b_, FeaturePair::vertex_facet);
     for (const auto& [v, _] : b_.vertices) from_vertex(b_, v, a_, FeaturePair::facet_vertex);
     for (const auto& [e, third_e] : a_.edges) {
-      const Box near = within_reach(a_, {e.first, e.second});
+      const FeatureBox near = within_reach(a_, {e.first, e.second});
       for (const auto& [f, third_f] : b_.edges) {
         if (near.intersects(box_of(b_, {f.first, f.second}))) between(e, third_e, f, third_f);
       }
@@ -92,15 +92,15 @@ class PointOracle {
 
  private:
   static const Long3& at(const LongMesh& s, int v) { return s.x[v]; }
-  static Box box_of(const LongMesh& s, std::initializer_list<int> vertices) {
-    Box box;
+  static FeatureBox box_of(const LongMesh& s, std::initializer_list<int> vertices) {
+    FeatureBox box;
     for (const int v : vertices) box.extend(s.boxes[v]);
     return box;
   }
   // What does not meet this box is too far away for a point with the feature of these vertices. Without it, a processor
   // that has no long double takes minutes for bodies of a thousand facets.
-  Box within_reach(const LongMesh& s, std::initializer_list<int> vertices) const {
-    const Box box = box_of(s, vertices);
+  FeatureBox within_reach(const LongMesh& s, std::initializer_list<int> vertices) const {
+    const FeatureBox box = box_of(s, vertices);
     const double rounding = 1e-15 * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
     const double margin = static_cast<double>(1.001L * reach_ + 10 * band_) + rounding;
     return {box.min().array() - margin, box.max().array() + margin};
@@ -126,7 +126,7 @@ class PointOracle {
 
   void from_vertex(const LongMesh& own, int vertex, const LongMesh& s, FeaturePair kind) {
     const Long3& v = own.x[vertex];
-    const Box near = within_reach(own, {vertex});
+    const FeatureBox near = within_reach(own, {vertex});
     for (const auto& c : s.facets) {
       if (!near.intersects(box_of(s, {c[0], c[1], c[2]}))) continue;
       const Long3 p = at(s, c[0]), q = at(s, c[1]), r = at(s, c[2]), normal = (q - p).cross(r - p);

@@ -1,7 +1,7 @@
-// Results and operands below the least normal number become zero in the calling thread, as Embree advises its users:
-// until std::fesetenv() restores the mode. Processors that cannot do so are left as they are.
+// The floating-point mode of the calling thread, as tests change it.
 #pragma once
 
+#include <cfenv>
 #include <cstdint>
 
 #if defined(__SSE2__)
@@ -10,6 +10,28 @@
 
 namespace tact::tests {
 
+// Gives the mode back when its life ends. std::fesetenv() of MinGW leaves the register of SSE as it is.
+class SavedFloatingPointState {
+ public:
+  SavedFloatingPointState() { std::fegetenv(&saved_); }
+  ~SavedFloatingPointState() {
+    std::fesetenv(&saved_);
+#if defined(__SSE2__)
+    _mm_setcsr(of_sse_);
+#endif
+  }
+  SavedFloatingPointState(const SavedFloatingPointState&) = delete;
+  SavedFloatingPointState& operator=(const SavedFloatingPointState&) = delete;
+
+ private:
+#if defined(__SSE2__)
+  unsigned of_sse_ = _mm_getcsr();
+#endif
+  std::fenv_t saved_;
+};
+
+// Results and operands below the least normal number become zero, as Embree advises its users. Processors that cannot do
+// so are left as they are.
 #if defined(__SSE2__)
 constexpr bool kCanFlushSubnormals = true;
 constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040;
