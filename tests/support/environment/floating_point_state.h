@@ -30,8 +30,8 @@ class SavedFloatingPointState {
   std::fenv_t saved_;
 };
 
-// Results and operands below the least normal number become zero, as Embree advises its users. Processors that cannot do
-// so are left as they are.
+// Results and operands below the least normal number become zero, as Embree advises its users. Processors that cannot
+// do so are left as they are.
 #if defined(__SSE2__)
 constexpr bool kCanFlushSubnormals = true;
 constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040;

@@ -1,5 +1,5 @@
-// Exact numbers of the oracles: those of GMP, or where there is no GMP for the platform those of Boost and CGAL, which are
-// slower.
+// Exact numbers of the oracles: those of GMP, or where there is no GMP for the platform those of Boost and CGAL, which
+// are slower.
 #pragma once
 
 #ifdef CGAL_DISABLE_GMP
@@ -20,7 +20,8 @@ namespace tact::tests {
 
 // The operators of integers; abs() and gcd() are found by the arguments.
 #ifdef CGAL_DISABLE_GMP
-using ExactInteger = boost::multiprecision::number<boost::multiprecision::cpp_int::backend_type, boost::multiprecision::et_off>;
+using ExactInteger =
+    boost::multiprecision::number<boost::multiprecision::cpp_int::backend_type, boost::multiprecision::et_off>;
 using ExactFloat = CGAL::MP_Float;  // an integer times a power of two
 #else
 using ExactInteger = mpz_class;

@@ -271,8 +271,7 @@ bool keeps_sign(const Polynomial& g, const Root& root) {
       (root.high.numerator << (bits - root.high.bits)) - (root.low.numerator << (bits - root.low.bits));
   const Time low{root.low.numerator << (bits - root.low.bits), bits};
   const std::size_t degree = g.size() - 1;
-  return degree == 0 ||
-         abs(value(g, low, degree)) > slope * (width << (bits * static_cast<unsigned>(degree - 1)));
+  return degree == 0 || abs(value(g, low, degree)) > slope * (width << (bits * static_cast<unsigned>(degree - 1)));
 }
 
 constexpr unsigned kNarrow = 40;  // bits: nearly all signs are plain then, without a common divisor

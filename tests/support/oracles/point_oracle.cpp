@@ -217,10 +217,23 @@ std::map<PointKey, ExpectedPoint> points_by_brute_force(const Mesh& a, const Mes
 
 namespace {
 
+struct LongEdge {
+  int p, q;
+  long double length;
+};
+
+std::vector<LongEdge> long_edges(const LongMesh& s) {
+  std::vector<LongEdge> edges;
+  for (const auto& [edge, _] : s.edges)
+    edges.push_back({edge.first, edge.second, (s.x[edge.first] - s.x[edge.second]).norm()});
+  return edges;
+}
+
 // How far it is from one point along edges to another, from and to vertices of the features that hold them: by
-// relaxing all edges until nothing changes (Bellman, 1958; Ford, 1956).
-long double way_along_edges(const LongMesh& s, const std::array<int, 3>& from, const Vec3& from_point,
-                            const std::array<int, 3>& to, const Vec3& to_point) {
+// relaxing all edges until nothing changes (Bellman, 1958; Ford, 1956). What is beyond the limit may come out longer.
+long double way_along_edges(const LongMesh& s, const std::vector<LongEdge>& edges, const std::array<int, 3>& from,
+                            const Vec3& from_point, const std::array<int, 3>& to, const Vec3& to_point,
+                            long double limit) {
   constexpr long double kFar = std::numeric_limits<long double>::infinity();
   const auto distance = [&](const Vec3& p, int v) { return (Long3(p.x, p.y, p.z) - s.x[v]).norm(); };
   std::vector<long double> way(s.x.size(), kFar);
@@ -229,11 +242,9 @@ long double way_along_edges(const LongMesh& s, const std::array<int, 3>& from, c
   }
   for (bool changes = true; changes;) {
     changes = false;
-    for (const auto& [edge, _] : s.edges) {
-      const auto [p, q] = edge;
-      const long double length = (s.x[p] - s.x[q]).norm();
+    for (const auto& [p, q, length] : edges) {
       for (const auto& [one, other] : {std::pair(p, q), std::pair(q, p)}) {
-        if (way[one] + length < way[other]) {
+        if (way[one] <= limit && way[one] + length < way[other]) {
           way[other] = way[one] + length;
           changes = true;
         }
@@ -251,11 +262,14 @@ long double way_along_edges(const LongMesh& s, const std::array<int, 3>& from, c
 
 long double way_along_edges(const Mesh& mesh, const std::array<int, 3>& from, Vec3 from_point,
                             const std::array<int, 3>& to, Vec3 to_point) {
-  return way_along_edges(long_mesh(mesh), from, from_point, to, to_point);
+  const LongMesh s = long_mesh(mesh);
+  return way_along_edges(s, long_edges(s), from, from_point, to, to_point,
+                         std::numeric_limits<long double>::infinity());
 }
 
 std::map<PointKey, ExpectedPoint> self_points_by_brute_force(const Mesh& mesh, double reach, double band) {
   const LongMesh s = long_mesh(mesh);
+  const std::vector<LongEdge> edges = long_edges(s);
   const long double least_way = 0.5L * std::numbers::pi_v<long double> * reach;
   std::map<PointKey, ExpectedPoint> points;
   for (auto [key, point] : points_by_brute_force(mesh, mesh, reach, band)) {
@@ -263,7 +277,7 @@ std::map<PointKey, ExpectedPoint> self_points_by_brute_force(const Mesh& mesh, d
     const auto in_b = [&b = b](int v) { return v >= 0 && std::ranges::find(b, v) != b.end(); };
     const bool share = std::ranges::any_of(a, in_b);
     if (share || kind == FeaturePair::facet_vertex || (kind == FeaturePair::edge_edge && b < a)) continue;
-    const long double way = way_along_edges(s, a, point.a, b, point.b);
+    const long double way = way_along_edges(s, edges, a, point.a, b, point.b, least_way + band);
     if (way < least_way - band) continue;
     point.certain = point.certain && way > least_way + band;
     points[key] = point;
