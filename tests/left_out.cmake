@@ -1,8 +1,26 @@
-# TACT_TESTS_LEFT_OUT: the sources below this folder that cannot be compiled, as they include, directly or through others,
-# a library that is not there. On the machine that builds all are there. Each library's are named when they are left out.
+# TACT_TESTS_LEFT_OUT: the sources below this folder that cannot be built here, each named with its reason. With the
+# program, on the machine that builds, all can.
 set(TACT_TESTS_LEFT_OUT)
 
-# Adds the sources that include what one of the pattern's headers has.
+# Adds sources, as a list that is relative to this folder.
+macro(tact_add_left_out reason)
+  set(added ${ARGN})
+  if(added)
+    list(JOIN added " " names)
+    message(STATUS "tact: left out, as ${reason}: ${names}")
+    list(TRANSFORM added PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+    list(APPEND TACT_TESTS_LEFT_OUT ${added})
+  endif()
+endmacro()
+
+# Adds the tests of these names.
+macro(tact_leave_out_tests reason)
+  set(paths ${ARGN})
+  list(TRANSFORM paths REPLACE "(.*)/(.*)" "\\1/test_\\2.cpp")
+  tact_add_left_out(${reason} ${paths})
+endmacro()
+
+# Adds the sources that include, directly or through others, what one of the pattern's headers has.
 function(tact_leave_out library pattern)
   file(GLOB_RECURSE files RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.h *.cpp)
   set(left_out)
@@ -25,12 +43,8 @@ function(tact_leave_out library pattern)
   endwhile()
   list(FILTER left_out INCLUDE REGEX "\\.cpp$")
   list(SORT left_out)
-  if(left_out)
-    list(JOIN left_out " " names)
-    message(STATUS "tact: left out, as ${library} is not there: ${names}")
-  endif()
-  list(TRANSFORM left_out PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
-  set(TACT_TESTS_LEFT_OUT ${TACT_TESTS_LEFT_OUT} ${left_out} PARENT_SCOPE)
+  tact_add_left_out("${library} is not there" ${left_out})
+  set(TACT_TESTS_LEFT_OUT ${TACT_TESTS_LEFT_OUT} PARENT_SCOPE)
 endfunction()
 
 if(NOT TARGET CGAL::CGAL)
@@ -41,4 +55,23 @@ if(NOT TARGET rapidcheck)
 endif()
 if(NOT embree_FOUND)
   tact_leave_out(Embree "embree")
+endif()
+if(NOT TACT_USES_EMBREE)
+  tact_leave_out_tests("the library does not use Embree" narrowphase/pairs/cluster_forest engine/failures/embree_faults)
+endif()
+if(NOT TARGET tact_scenes)
+  tact_leave_out_tests("the program and its readers of meshes are not built" engine/pair/data_sets
+    engine/motion/data_motion engine/points/data_contact_points engine/self/data_self_contact
+    engine/recording/recorded_world)
+endif()
+if(NOT TARGET TBB::tbb)
+  tact_leave_out_tests("TBB is not there" threads/beside_tbb)
+endif()
+if(TACT_SANITIZE STREQUAL thread)
+  tact_leave_out_tests("the sanitizer has an operator new of its own" broadphase/allocation engine/failures/allocation
+    narrowphase/pairs/cluster_forest)
+endif()
+if(BUILD_SHARED_LIBS)
+  tact_leave_out_tests("they use the program's sources and look inside the library, which is shared" engine/pair/data_sets
+    engine/motion/data_motion scenes/dynamics/scene_motion)
 endif()

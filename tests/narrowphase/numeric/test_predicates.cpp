@@ -13,11 +13,7 @@
 #include <vector>
 
 #include "narrowphase/numeric/predicates.h"
-
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
-
+#include "tests/support/environment/floating_point_state.h"
 #include "tests/support/generators/triangle_pairs.h"
 #include "tests/support/oracles/triangle_oracle.h"
 
@@ -187,13 +183,11 @@ TEST(Orient3d, PointsInGeneralPositionNeverNeedTheExactPath) {
 // The signs in another floating-point mode; back in the caller's mode afterwards.
 template <class SetMode>
 std::vector<int> signs_in_mode(const TrianglePair& pair, const SetMode& set_mode) {
-  std::fenv_t saved;
-  std::fegetenv(&saved);
+  const tests::SavedFloatingPointState saved;
   set_mode();
   PredicateCounts counts;
   std::vector<int> signs = signs_of(pair, counts);
   signs.push_back(compare_lexicographically(pair.a[0], pair.b[0]));
-  std::fesetenv(&saved);
   return signs;
 }
 
@@ -205,11 +199,8 @@ TEST(Orient3d, RoundingModeAndFlushedSubnormalsChangeNothing) {
       ASSERT_EQ(signs_in_mode(pair, [&] { std::fesetround(mode); }), expected)
           << "mode " << mode << " seed " << kSeed + 2 << " pair " << i << ' ' << to_string(pair);
     }
-#if defined(__SSE2__)
-    constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040;
-    ASSERT_EQ(signs_in_mode(pair, [] { _mm_setcsr(_mm_getcsr() | kFlushToZero | kDenormalsAreZero); }), expected)
+    ASSERT_EQ(signs_in_mode(pair, tests::flush_subnormals), expected)
         << "seed " << kSeed + 2 << " pair " << i << ' ' << to_string(pair);
-#endif
   }
 }
 

@@ -67,7 +67,7 @@ class LatestWorlds : public ::testing::EmptyTestEventListener {
     if (!result.failed() || written_) return;
     written_ = true;
     for (const std::filesystem::path& path : write(std::filesystem::path(TACT_BINARY_DIR) / "failed_tests")) {
-      std::printf("recorded; to run it again: tact replay %s\n", path.c_str());
+      std::printf("recorded; to run it again: tact replay %s\n", path.string().c_str());
     }
     std::fflush(stdout);
   }

@@ -6,6 +6,19 @@
 
 namespace {
 
+// The C library of Windows has no std::aligned_alloc, and frees what is aligned by a function of its own.
+#ifdef _WIN32
+[[maybe_unused]] void* aligned_memory(std::size_t size, std::size_t alignment) {
+  return _aligned_malloc(size, alignment);
+}
+[[maybe_unused]] void free_aligned(void* memory) { _aligned_free(memory); }
+#else
+[[maybe_unused]] void* aligned_memory(std::size_t size, std::size_t alignment) {
+  return std::aligned_alloc(alignment, size);
+}
+[[maybe_unused]] void free_aligned(void* memory) { std::free(memory); }
+#endif
+
 constexpr long kNever = -1;
 std::atomic<long> allocations{0};
 std::atomic<long> until_failure{kNever};  // or the number of allocations that still succeed
@@ -20,7 +33,7 @@ std::atomic<bool> has_failed{false};
     throw std::bad_alloc();
   }
   const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
-  void* memory = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded);
+  void* memory = aligned_memory(rounded == 0 ? alignment : rounded, alignment);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
@@ -36,14 +49,14 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
 void* operator new[](std::size_t size, std::align_val_t alignment) {
   return allocate(size, static_cast<std::size_t>(alignment));
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept { free_aligned(memory); }
+void operator delete[](void* memory) noexcept { free_aligned(memory); }
+void operator delete(void* memory, std::size_t) noexcept { free_aligned(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { free_aligned(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { free_aligned(memory); }
+void operator delete[](void* memory, std::align_val_t) noexcept { free_aligned(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { free_aligned(memory); }
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { free_aligned(memory); }
 #endif
 
 namespace tact::tests {

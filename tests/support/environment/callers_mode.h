@@ -5,9 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
+#include "tests/support/environment/floating_point_state.h"
 
 namespace tact::tests {
 
@@ -34,7 +32,6 @@ inline std::vector<FloatingPointSettings> callers_modes() {
 class CallersMode {
  public:
   explicit CallersMode(const FloatingPointSettings& settings) {
-    std::fegetenv(&saved_);
     std::fesetround(settings.rounding);
 #if defined(__x86_64__) && defined(__GNUC__)
     std::uint16_t control = 0;
@@ -42,21 +39,15 @@ class CallersMode {
     control = static_cast<std::uint16_t>((control & ~0x300u) | settings.x87_precision << 8);
     __asm__ volatile("fldcw %0" : : "m"(control));
 #endif
-#if defined(__SSE2__)
-    constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040;
-    if (settings.flushes) _mm_setcsr(_mm_getcsr() | kFlushToZero | kDenormalsAreZero);
-#endif
+    if (settings.flushes) flush_subnormals();
 #if defined(__GLIBC__)
     std::feclearexcept(FE_ALL_EXCEPT);
     if (settings.traps) feenableexcept(FE_ALL_EXCEPT);
 #endif
   }
-  ~CallersMode() { std::fesetenv(&saved_); }
-  CallersMode(const CallersMode&) = delete;
-  CallersMode& operator=(const CallersMode&) = delete;
 
  private:
-  std::fenv_t saved_;
+  SavedFloatingPointState saved_;
 };
 
 /// What call() returns in a caller's mode.

@@ -1,8 +1,9 @@
 #include "tests/support/oracles/hull_oracle.h"
 
-#include <CGAL/Gmpzf.h>
 #include <CGAL/QP_functions.h>
 #include <CGAL/QP_models.h>
+
+#include "tests/support/oracles/exact_numbers.h"
 
 namespace tact::tests {
 
@@ -21,7 +22,7 @@ bool hulls_meet_by_oracle(std::span<const base::Vec3> a, std::span<const base::V
   program.set_b(4, 1.0);
   CGAL::Quadratic_program_options options;
   options.set_pricing_strategy(CGAL::QP_BLAND);  // the default chooses by doubles, which vanish where bodies are tiny
-  return !CGAL::solve_nonnegative_linear_program(program, CGAL::Gmpzf(), options).is_infeasible();
+  return !CGAL::solve_nonnegative_linear_program(program, ExactFloat(), options).is_infeasible();
 }
 
 }  // namespace tact::tests

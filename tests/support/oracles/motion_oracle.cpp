@@ -1,8 +1,5 @@
 #include "tests/support/oracles/motion_oracle.h"
 
-#include <CGAL/gmpxx.h>
-#include <CGAL/number_utils.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -13,13 +10,13 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/oracles/exact_numbers.h"
+
 namespace tact::tests {
 namespace {
 
 using narrowphase::MovingVertex;
-using Integer = mpz_class;
-
-int sign_of(const Integer& x) { return static_cast<int>(CGAL::sign(x)); }
+using Integer = ExactInteger;
 
 // Coefficients of powers of time, from the lowest; none on top is zero. Only signs are asked for, so that a positive
 // factor may be anything.
@@ -92,7 +89,7 @@ int sign_at(const Polynomial& p, const Time& t) { return p.empty() ? 0 : sign_of
 std::pair<Polynomial, Polynomial> divided(Polynomial p, const Polynomial& q) {
   if (p.size() < q.size()) return {{}, p};
   Polynomial quotient(p.size() - q.size() + 1);
-  const Integer top = CGAL::abs(q.back());
+  const Integer top = abs(q.back());
   for (std::size_t i = quotient.size(); i-- > 0;) {
     const Integer factor = sign_of(q.back()) < 0 ? Integer(-p[i + q.size() - 1]) : p[i + q.size() - 1];
     for (Integer& c : p) c *= top;
@@ -106,8 +103,8 @@ std::pair<Polynomial, Polynomial> divided(Polynomial p, const Polynomial& q) {
 // Without the common divisor of the coefficients, which would double its digits at each division.
 Polynomial primitive(Polynomial p) {
   Integer content(0);
-  for (const Integer& c : p) content = CGAL::gcd(content, c);
-  for (Integer& c : p) c = CGAL::integral_division(c, content);
+  for (const Integer& c : p) content = gcd(content, c);
+  for (Integer& c : p) c /= content;
   return p;
 }
 
@@ -116,7 +113,7 @@ Polynomial common_divisor(Polynomial p, Polynomial q) {
   return primitive(std::move(p));
 }
 
-double to_double(const Time& t) { return std::ldexp(CGAL::to_double(t.numerator), -static_cast<int>(t.bits)); }
+double to_double(const Time& t) { return scaled(t.numerator, -static_cast<long>(t.bits)); }
 
 constexpr unsigned kGuessed = 44;  // bits of a root that doubles mostly get right
 constexpr unsigned kSimple = 10;   // bits of a root that is looked for exactly: many are a half
@@ -134,13 +131,9 @@ struct Root {
   // Takes the bracket around the root that doubles find, if f changes its sign in it.
   void jump() {
     std::size_t digits = 0;
-    for (const Integer& c : f) digits = std::max(digits, mpz_sizeinbase(c.get_mpz_t(), 2));
+    for (const Integer& exact : f) digits = std::max(digits, bits_of(exact));
     std::vector<double> c;
-    for (const Integer& exact : f) {
-      long exponent = 0;
-      const double mantissa = mpz_get_d_2exp(&exponent, exact.get_mpz_t());
-      c.push_back(std::ldexp(mantissa, static_cast<int>(exponent - static_cast<long>(digits))));
-    }
+    for (const Integer& exact : f) c.push_back(scaled(exact, -static_cast<long>(digits)));
     const auto at = [&](double t) {
       double sum = 0.0;
       for (std::size_t i = c.size(); i-- > 0;) sum = sum * t + c[i];
@@ -272,14 +265,13 @@ std::vector<Root> roots_of(const Polynomial& p) {
 // the sum of the sizes of its derivative's coefficients.
 bool keeps_sign(const Polynomial& g, const Root& root) {
   Integer slope(0);
-  for (const Integer& c : derivative(g)) slope += CGAL::abs(c);
+  for (const Integer& c : derivative(g)) slope += abs(c);
   const unsigned bits = std::max(root.low.bits, root.high.bits);
   const Integer width =
       (root.high.numerator << (bits - root.high.bits)) - (root.low.numerator << (bits - root.low.bits));
   const Time low{root.low.numerator << (bits - root.low.bits), bits};
   const std::size_t degree = g.size() - 1;
-  return degree == 0 ||
-         CGAL::abs(value(g, low, degree)) > slope * (width << (bits * static_cast<unsigned>(degree - 1)));
+  return degree == 0 || abs(value(g, low, degree)) > slope * (width << (bits * static_cast<unsigned>(degree - 1)));
 }
 
 constexpr unsigned kNarrow = 40;  // bits: nearly all signs are plain then, without a common divisor
@@ -348,8 +340,8 @@ PolynomialVector way_of(const MovingVertex& vertex, int unit) {
 }
 
 double rounded(const Time& t, bool up) {
-  const auto interval = CGAL::to_interval(t.numerator);  // 2^-bits is exact
-  return std::ldexp(up ? interval.second : interval.first, -static_cast<int>(t.bits));
+  const auto [low, high] = enclosed(t.numerator, -static_cast<long>(t.bits));
+  return up ? high : low;
 }
 
 // A triangle, or a parallelogram in the order of its outline: when does it hold the origin?

@@ -3,7 +3,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <numbers>
 #include <set>
@@ -17,8 +19,11 @@ namespace {
 using Long3 = Eigen::Matrix<long double, 3, 1>;
 using VertexPair = std::pair<int, int>;
 
+using FeatureBox = Eigen::AlignedBox3d;
+
 struct LongMesh {
   std::vector<Long3> x;
+  std::vector<FeatureBox> boxes;  // of each vertex, in doubles
   std::vector<std::array<int, 3>> facets;
   std::map<VertexPair, std::vector<int>> edges;  // with the third vertices
   std::map<int, std::set<int>> vertices;         // with their neighbours
@@ -26,7 +31,10 @@ struct LongMesh {
 
 LongMesh long_mesh(const Mesh& mesh) {
   LongMesh s;
-  for (int v = 0; v < mesh.vertex_count(); ++v) s.x.push_back(mesh.positions.col(v).cast<long double>());
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    s.x.push_back(mesh.positions.col(v).cast<long double>());
+    s.boxes.emplace_back(Eigen::Vector3d(mesh.positions.col(v)));
+  }
   for (int f = 0; f < mesh.facet_count(); ++f) {
     const std::array<int, 3> c{mesh.facets(0, f), mesh.facets(1, f), mesh.facets(2, f)};
     s.facets.push_back(c);
@@ -71,16 +79,32 @@ class PointOracle {
       : a_(long_mesh(a)), b_(long_mesh(b)), reach_(reach), band_(band) {}
 
   std::map<PointKey, ExpectedPoint> run() {
-    for (const auto& [v, _] : a_.vertices) from_vertex(a_.x[v], v, b_, FeaturePair::vertex_facet);
-    for (const auto& [v, _] : b_.vertices) from_vertex(b_.x[v], v, a_, FeaturePair::facet_vertex);
+    for (const auto& [v, _] : a_.vertices) from_vertex(a_, v, b_, FeaturePair::vertex_facet);
+    for (const auto& [v, _] : b_.vertices) from_vertex(b_, v, a_, FeaturePair::facet_vertex);
     for (const auto& [e, third_e] : a_.edges) {
-      for (const auto& [f, third_f] : b_.edges) between(e, third_e, f, third_f);
+      const FeatureBox near = within_reach(a_, {e.first, e.second});
+      for (const auto& [f, third_f] : b_.edges) {
+        if (near.intersects(box_of(b_, {f.first, f.second}))) between(e, third_e, f, third_f);
+      }
     }
     return std::move(found_);
   }
 
  private:
   static const Long3& at(const LongMesh& s, int v) { return s.x[v]; }
+  static FeatureBox box_of(const LongMesh& s, std::initializer_list<int> vertices) {
+    FeatureBox box;
+    for (const int v : vertices) box.extend(s.boxes[v]);
+    return box;
+  }
+  // What does not meet this box is too far away for a point with the feature of these vertices. Without it, a processor
+  // that has no long double takes minutes for bodies of a thousand facets.
+  FeatureBox within_reach(const LongMesh& s, std::initializer_list<int> vertices) const {
+    const FeatureBox box = box_of(s, vertices);
+    const double rounding = 1e-15 * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+    const double margin = static_cast<double>(1.001L * reach_ + 10 * band_) + rounding;
+    return {box.min().array() - margin, box.max().array() + margin};
+  }
 
   void add(FeaturePair kind, std::array<int, 3> a, std::array<int, 3> b, const Long3& p, const Long3& q,
            Conditions conditions) {
@@ -100,8 +124,11 @@ class PointOracle {
     }
   }
 
-  void from_vertex(const Long3& v, int vertex, const LongMesh& s, FeaturePair kind) {
+  void from_vertex(const LongMesh& own, int vertex, const LongMesh& s, FeaturePair kind) {
+    const Long3& v = own.x[vertex];
+    const FeatureBox near = within_reach(own, {vertex});
     for (const auto& c : s.facets) {
+      if (!near.intersects(box_of(s, {c[0], c[1], c[2]}))) continue;
       const Long3 p = at(s, c[0]), q = at(s, c[1]), r = at(s, c[2]), normal = (q - p).cross(r - p);
       if (!(normal.norm() > 0)) continue;
       Conditions inside;
@@ -114,6 +141,7 @@ class PointOracle {
       add_vertex(kind, vertex, v, c, v - unit.dot(v - p) * unit, inside);
     }
     for (const auto& [edge, third] : s.edges) {
+      if (!near.intersects(box_of(s, {edge.first, edge.second}))) continue;
       const Long3 p = at(s, edge.first), q = at(s, edge.second);
       const long double length = (q - p).norm();
       if (!(length > 0)) continue;
@@ -132,6 +160,7 @@ class PointOracle {
       add_vertex(kind, vertex, v, {edge.first, edge.second, -1}, p + place * along, inside);
     }
     for (const auto& [w, neighbors] : s.vertices) {
+      if (!near.intersects(s.boxes[w])) continue;
       Conditions minimum;
       for (const int u : neighbors) {
         const Long3 way = at(s, u) - at(s, w);
@@ -188,10 +217,23 @@ std::map<PointKey, ExpectedPoint> points_by_brute_force(const Mesh& a, const Mes
 
 namespace {
 
+struct LongEdge {
+  int p, q;
+  long double length;
+};
+
+std::vector<LongEdge> long_edges(const LongMesh& s) {
+  std::vector<LongEdge> edges;
+  for (const auto& [edge, _] : s.edges)
+    edges.push_back({edge.first, edge.second, (s.x[edge.first] - s.x[edge.second]).norm()});
+  return edges;
+}
+
 // How far it is from one point along edges to another, from and to vertices of the features that hold them: by
-// relaxing all edges until nothing changes (Bellman, 1958; Ford, 1956).
-long double way_along_edges(const LongMesh& s, const std::array<int, 3>& from, const Vec3& from_point,
-                            const std::array<int, 3>& to, const Vec3& to_point) {
+// relaxing all edges until nothing changes (Bellman, 1958; Ford, 1956). What is beyond the limit may come out longer.
+long double way_along_edges(const LongMesh& s, const std::vector<LongEdge>& edges, const std::array<int, 3>& from,
+                            const Vec3& from_point, const std::array<int, 3>& to, const Vec3& to_point,
+                            long double limit) {
   constexpr long double kFar = std::numeric_limits<long double>::infinity();
   const auto distance = [&](const Vec3& p, int v) { return (Long3(p.x, p.y, p.z) - s.x[v]).norm(); };
   std::vector<long double> way(s.x.size(), kFar);
@@ -200,11 +242,9 @@ long double way_along_edges(const LongMesh& s, const std::array<int, 3>& from, c
   }
   for (bool changes = true; changes;) {
     changes = false;
-    for (const auto& [edge, _] : s.edges) {
-      const auto [p, q] = edge;
-      const long double length = (s.x[p] - s.x[q]).norm();
+    for (const auto& [p, q, length] : edges) {
       for (const auto& [one, other] : {std::pair(p, q), std::pair(q, p)}) {
-        if (way[one] + length < way[other]) {
+        if (way[one] <= limit && way[one] + length < way[other]) {
           way[other] = way[one] + length;
           changes = true;
         }
@@ -222,11 +262,14 @@ long double way_along_edges(const LongMesh& s, const std::array<int, 3>& from, c
 
 long double way_along_edges(const Mesh& mesh, const std::array<int, 3>& from, Vec3 from_point,
                             const std::array<int, 3>& to, Vec3 to_point) {
-  return way_along_edges(long_mesh(mesh), from, from_point, to, to_point);
+  const LongMesh s = long_mesh(mesh);
+  return way_along_edges(s, long_edges(s), from, from_point, to, to_point,
+                         std::numeric_limits<long double>::infinity());
 }
 
 std::map<PointKey, ExpectedPoint> self_points_by_brute_force(const Mesh& mesh, double reach, double band) {
   const LongMesh s = long_mesh(mesh);
+  const std::vector<LongEdge> edges = long_edges(s);
   const long double least_way = 0.5L * std::numbers::pi_v<long double> * reach;
   std::map<PointKey, ExpectedPoint> points;
   for (auto [key, point] : points_by_brute_force(mesh, mesh, reach, band)) {
@@ -234,7 +277,7 @@ std::map<PointKey, ExpectedPoint> self_points_by_brute_force(const Mesh& mesh, d
     const auto in_b = [&b = b](int v) { return v >= 0 && std::ranges::find(b, v) != b.end(); };
     const bool share = std::ranges::any_of(a, in_b);
     if (share || kind == FeaturePair::facet_vertex || (kind == FeaturePair::edge_edge && b < a)) continue;
-    const long double way = way_along_edges(s, a, point.a, b, point.b);
+    const long double way = way_along_edges(s, edges, a, point.a, b, point.b, least_way + band);
     if (way < least_way - band) continue;
     point.certain = point.certain && way > least_way + band;
     points[key] = point;
