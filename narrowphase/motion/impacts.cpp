@@ -399,6 +399,7 @@ class ImpactSearch {
     const int count = waiting.polygons.count;
     if (count == 0) return;
     counts_.candidates += count;
+    const std::size_t kept_before = kept_ == nullptr ? 0 : kept_->size();
     if (kept_ != nullptr) {
       waiting.keep(open_lanes(waiting, scaled_reach_ + kept_wider_ + kKeptOfSize * kept_size_));
       kept_->insert(kept_->end(), waiting.pair, waiting.pair + waiting.polygons.count);
@@ -408,8 +409,8 @@ class ImpactSearch {
     waiting.polygons.count = 0;
     counts_.searched += std::popcount(left);
     for (; left != 0; left &= left - 1) {
-      const auto& pair = waiting.pair[std::countr_zero(left)];
-      settle(pair.kind, pair.a, pair.b);
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      settle(kept_ == nullptr ? waiting.pair[lane] : (*kept_)[kept_before + lane]);
     }
   }
 
@@ -419,14 +420,17 @@ class ImpactSearch {
     return ~std::uint64_t{0} >> (64 - waiting.polygons.count) & ~kernels().apart_throughout(waiting.polygons, reach);
   }
 
-  void settle(FeaturePair kind, int a, int b) {
+  void settle(FeatureCandidate& pair) {
+    const FeaturePair kind = pair.kind;
+    const int a = pair.a, b = pair.b;
     if (!are_uniform_ && !rules_.filter.allows(sources_a(kind, a), sources_b(kind, b))) return;
     const double latest = first_ != nullptr ? first_->load(std::memory_order_relaxed) : 1.0;
     const MovingPolygon features = polygon(kind, a, b);
     double time = meeting(features, kind, a, b, latest, 0.0);
     if (!(time <= 1.0)) return;
     if (time > 0.0 && !stays_level(features)) return add(kind, a, b, time, true);
-    if (const double apart_until = memory_.parting.apart_until(a_, b_, kind, a, b, time); apart_until > 0.0) {
+    const double apart_until = memory_.parting.apart_until(a_, b_, kind, a, b, time, pair.planes);
+    if (apart_until > 0.0) {
       if (first_ == nullptr) add(kind, a, b, time, false);
       if (apart_until == 1.0) return;
       time = meeting(features, kind, a, b, latest, apart_until);

@@ -15,6 +15,7 @@
 #include "narrowphase/motion/feature_rules.h"
 #include "narrowphase/motion/meeting.h"
 #include "narrowphase/motion/moving_mesh.h"
+#include "narrowphase/motion/parting.h"
 #include "narrowphase/pairs/cluster_pairs.h"
 
 namespace tact::narrowphase {
@@ -39,6 +40,7 @@ struct FeatureImpact {
 struct FeatureCandidate {
   FeaturePair kind;
   int a, b;
+  PlanesAtBegin planes = PlanesAtBegin::unknown;  // the same on every part of the way
 };
 
 struct MotionCounts {

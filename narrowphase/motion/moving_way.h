@@ -16,6 +16,8 @@ struct MovingWay {
 inline constexpr double kWayRounding = 0x1p-47;
 inline constexpr double kVanishingVolume = 0x1p-900;  // products of three below that may have lost bits
 
+inline Vec3 magnitudes(Vec3 v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
+
 /// A way at time 0 and at 2^-halvings, and sizes of which the rounding of its coordinates is a part.
 struct WayEnds {
   Vec3 at[2], size[2];

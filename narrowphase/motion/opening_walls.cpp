@@ -24,8 +24,6 @@ struct MovingEdge {
 };
 using MovingFacet = std::array<MovingVertex, 3>;
 
-Vec3 magnitudes(Vec3 v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
-
 // Ways at one time that a normal has to point along.
 class Forward {
  public:

@@ -4,7 +4,7 @@
 // it, and what has the other on the other side; both may touch the plane. For an edge that begins to cross a facet does
 // so at a vertex of its own, or at a side of the facet: then the facets around these two features are on both sides of
 // each plane. Planes are those of facets around the features, or along both edges: they move as their vertices do, and
-// the gap of a vertex over them, times an area, is a cubic in time. The signs of its Bernstein coefficients are exact.
+// the gap of a vertex over them is told by exact signs: height_signs.h.
 // Surfaces with vertices at equal places, as the walls of a cut, are looked at in another way before: opening_walls.h.
 #pragma once
 
@@ -13,24 +13,25 @@
 #include <cstddef>
 #include <vector>
 
+#include "narrowphase/motion/height_signs.h"
 #include "narrowphase/motion/moving_mesh.h"
 #include "narrowphase/motion/moving_way.h"
 
 namespace tact::narrowphase {
 
-/// The signs that the volume u · (v × w) takes between time 0 and 2^-halvings, as its Bernstein coefficients tell: of
-/// kAbove and kBelow those that one of them has. None: it is zero throughout.
-inline constexpr unsigned kAbove = 1, kBelow = 2;
-unsigned volume_signs(const MovingWay& u, const MovingWay& v, const MovingWay& w, int halvings);
+/// What is known of the planes between two features from where they begin alone, whatever way they go: nothing; that no
+/// plane has a vertex of both in it and a side for each; or that none has a side for each.
+enum class PlanesAtBegin : unsigned char { unknown, none_to_slide_along, none };
 
 /// One for each thread; its memory is reused.
 class PartingSearch {
  public:
   /// Features of two meshes, or of one, which come near at `time`: until when the surfaces around them certainly do not
   /// cross there, though they touch. Zero if nothing is known. If `time` is zero, a time until which they are on two
-  /// sides of a plane. Later, 1 if both have a vertex in such a plane all the time: they slide along it.
+  /// sides of a plane. Later, 1 if both have a vertex in such a plane all the time: they slide along it. `planes` is
+  /// what is known of them, and gets what was found.
   double apart_until(const MovingMesh& a, const MovingMesh& b, FeaturePair kind, int feature_a, int feature_b,
-                     double time);
+                     double time, PlanesAtBegin& planes);
 
  private:
   // What has a feature.
@@ -44,6 +45,13 @@ class PartingSearch {
     MovingWay u, v;
     MovingVertex base_a, base_b;
   };
+  // A way from the base of a plane to a vertex that doubles do not tell all signs of.
+  struct OpenWay {
+    MovingWay way;
+    std::size_t side;  // 0: of a_
+    bool may_be_own_in_plane;
+    MovingNormal::Signs signs;
+  };
 
   void take_vertex(const MovingMesh& mesh, int vertex, Star& star);
   void take_edge(const MovingMesh& mesh, int edge, Star& star);
@@ -51,10 +59,14 @@ class PartingSearch {
   void add_plane(const MovingVertex& a, const MovingVertex& b, const MovingVertex& c);
   void add_planes_of_vertex(const MovingMesh& mesh, int vertex, const Star& star, bool only_one);
   void add_planes_of_edges(bool only_facets);
-  bool separates(const Plane& plane, int halvings, bool own_in_plane) const;
+  void add(const Plane& plane);
+  bool begins_on_both_sides(const Plane& plane) const;
+  bool separates(const Plane& plane, int halvings);
 
   Star a_, b_;
+  bool own_in_plane_ = false;  // whether that is asked of each star
   std::vector<Plane> planes_;
+  std::vector<OpenWay> open_;  // scratch
 };
 
 }  // namespace tact::narrowphase

@@ -72,6 +72,34 @@ TEST(DetectMotion, OnAPartOfAWayIsAsWithoutTheWholeOne) {
   EXPECT_LT(2 * candidates, without);
 }
 
+// Two sheets that lie on each other and part, slide, or go through each other, vertex by vertex: what begins to cross,
+// and what touches and does not, is told again on each part of the way.
+TEST(DetectMotion, OnAPartOfAWayWhatTouchesAtTheStartIsAsFromScratch) {
+  Random random(54);
+  std::int64_t stops = 0, all = 0;
+  for (int k = 0; k < 8; ++k) {
+    const Mesh flat = sheet(4, 4, 2.0, 2.0), under = translated(sheet(3, 3, 2.0, 2.0), {0.1, 0.15, 0});
+    Couple couple{"sheets on each other", {flat, flat.positions}, {under, under.positions}};
+    for (Eigen::Index v = 0; v < flat.positions.cols(); ++v) {
+      const double up = random.uniform(k % 3 == 0 ? 0.0 : -0.05, 0.2);
+      couple.a.end.col(v) += Eigen::Vector3d(k % 2 == 0 ? 0.25 : 0.0, 0.0, k % 4 == 3 && up < 0.1 ? 0.0 : up);
+    }
+    CoupleOnItsWay known(couple, 0.0, 1), scratch(couple, 0.0, 1);
+    known.go(couple, 1.0, 1.0);
+    known.world.detect_motion();
+    for (const double part : {0.5, 0.25, 0.3}) {
+      for (CoupleOnItsWay* const two : {&known, &scratch}) two->go(couple, part, part);
+      scratch.world.set_margin(scratch.a, 0.0);
+      EXPECT_EQ(answer_of(known.world, {}), answer_of(scratch.world, {})) << k << ", " << part << " of the way";
+      const MotionReport& report = known.world.detect_motion();
+      stops += std::ranges::count_if(report.impacts(), &Impact::stops);
+      all += std::ssize(report.impacts());
+    }
+  }
+  EXPECT_GT(stops, 100);
+  EXPECT_GT(all - stops, 100);
+}
+
 // What changes besides positions is seen by the next call on the same way.
 TEST(DetectMotion, OnAPartOfAWayGoesByTheSettingsOfNow) {
   const Couple couple = couples()[2];
