@@ -14,14 +14,29 @@ namespace tact::base {
 #if defined(__SSE2__)
 class FloatingPointMode {
  public:
-  FloatingPointMode() : saved_(_mm_getcsr()) { _mm_setcsr(kDefault); }
-  ~FloatingPointMode() { _mm_setcsr(saved_); }
+  FloatingPointMode() : saved_(_mm_getcsr()) {
+    _mm_setcsr(kDefault);
+#if defined(__MINGW32__)  // functions of its <cmath> compute with the x87
+    __asm__ volatile("fnstcw %0" : "=m"(saved_x87_));
+    __asm__ volatile("fldcw %0" : : "m"(kDefaultX87));
+#endif
+  }
+  ~FloatingPointMode() {
+    _mm_setcsr(saved_);
+#if defined(__MINGW32__)
+    __asm__ volatile("fldcw %0" : : "m"(saved_x87_));
+#endif
+  }
   FloatingPointMode(const FloatingPointMode&) = delete;
   FloatingPointMode& operator=(const FloatingPointMode&) = delete;
 
  private:
   static constexpr unsigned kDefault = 0x1f80;  // all exceptions masked, round to nearest, no FTZ, no DAZ
   unsigned saved_;
+#if defined(__MINGW32__)
+  static constexpr unsigned short kDefaultX87 = 0x037f;  // the same, with all bits of the mantissa
+  unsigned short saved_x87_ = kDefaultX87;
+#endif
 };
 #else
 class FloatingPointMode {

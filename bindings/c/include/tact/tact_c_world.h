@@ -50,7 +50,7 @@ typedef enum tact_error {
   TACT_ERROR_FILE = 106                 /**< a file cannot be opened, read or written */
 } tact_error;
 
-/** The version of the library, such as "0.1.0". */
+/** The version of the library, such as "1.0.0". */
 TACT_C_API const char* tact_version(void);
 /** Gives the name of `code`, such as "stale_body". */
 TACT_C_API const char* tact_error_code_name(int error);
