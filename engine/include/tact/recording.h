@@ -86,8 +86,7 @@ class TACT_API RecordingPlayer {
   explicit RecordingPlayer(std::string_view bytes, const PlayOptions& options = {});
   /// The same of a string that is given away: the player keeps it.
   template <std::same_as<std::string> Bytes>
-  explicit RecordingPlayer(Bytes&& bytes, const PlayOptions& options = {})
-      : RecordingPlayer(std::make_unique<const std::string>(std::move(bytes)), options) {}
+  explicit RecordingPlayer(Bytes&& bytes, const PlayOptions& options = {});
   ~RecordingPlayer();
   RecordingPlayer(RecordingPlayer&&) noexcept;
   RecordingPlayer& operator=(RecordingPlayer&&) noexcept;
@@ -112,5 +111,9 @@ class TACT_API RecordingPlayer {
   RecordingPlayer(std::unique_ptr<const std::string> bytes, const PlayOptions& options);
   std::unique_ptr<Implementation> implementation_;
 };
+
+template <std::same_as<std::string> Bytes>
+RecordingPlayer::RecordingPlayer(Bytes&& bytes, const PlayOptions& options)
+    : RecordingPlayer(std::make_unique<const std::string>(std::move(bytes)), options) {}
 
 }  // namespace tact
