@@ -26,7 +26,7 @@ void check_one(const Bodies& bodies, const Query& query) {
   }
 }
 
-// The message of an error tells which query it is of, if there are several.
+// The message of an error tells which query it is of.
 template <class Query>
 void check_queries(const Bodies& bodies, std::span<const Query> queries, std::size_t answers) {
   if (queries.size() != answers) {
@@ -37,7 +37,6 @@ void check_queries(const Bodies& bodies, std::span<const Query> queries, std::si
     try {
       check_one(bodies, queries[i]);
     } catch (const Error& error) {
-      if (queries.size() == 1) throw;
       throw Error(error.code(), "query " + std::to_string(i) + ": " + error.what());
     }
   }
@@ -71,9 +70,9 @@ void answer_all(OfWorld& world, std::span<const Query> queries, std::span<Answer
 }  // namespace
 
 RayHit World::cast_ray(const Ray& ray, RayHits wanted) const {
-  RayHit hit;
-  cast_rays({&ray, 1}, {&hit, 1}, wanted);
-  return hit;
+  const Implementation& i = implementation();
+  check_name(wanted, RayHits::any, "hits");
+  return answer_one(i, ray, [&] { return find_hit(i.bodies, ray, wanted); });
 }
 
 void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits wanted) const {
@@ -105,9 +104,8 @@ std::vector<RayHit> World::cast_ray_all(const Ray& ray) const {
 }
 
 ClosestPoint World::closest_point(const PointQuery& query) const {
-  ClosestPoint answer;
-  closest_points({&query, 1}, {&answer, 1});
-  return answer;
+  const Implementation& i = implementation();
+  return answer_one(i, query, [&] { return find_closest_point(i.bodies, query); });
 }
 
 void World::closest_points(std::span<const PointQuery> queries, std::span<ClosestPoint> answers) const {
@@ -136,9 +134,8 @@ void World::bodies_containing_each(std::span<const PointQuery> queries, std::spa
 }
 
 ClosestPoint World::signed_distance(const PointQuery& query) const {
-  ClosestPoint answer;
-  signed_distances({&query, 1}, {&answer, 1});
-  return answer;
+  const Implementation& i = implementation();
+  return answer_one(i, query, [&] { return find_signed_distance(i.bodies, query); });
 }
 
 void World::signed_distances(std::span<const PointQuery> queries, std::span<ClosestPoint> answers) const {

@@ -126,8 +126,8 @@ void World::Implementation::exclude_here(const ExcludedPair& pair, bool wanted) 
     parts.exclude(own, other, wanted);
 }
 
-// A body comes of the key of a ghost: its owner has removed that one, or the next call together refuses the key.
-// Its owner may have removed the body, and another come with its key. If add() fails the owner is told to send it anew.
+// A body comes of the key of a ghost: its owner has removed that one, or the next call together refuses the key. If
+// add() fails the owner may have it still, and sends it anew.
 template <class Add>
 BodyId World::Implementation::add_in_place_of_ghost(std::uint64_t key, const Add& add) {
   const bool was_ghost = forget_ghost(key);

@@ -129,45 +129,26 @@ void add_answers(MotionRunner& one, MotionRunner& several, const std::string& na
 
 // Scenes as they move from one step to the next, and carried along as a whole.
 std::vector<Leaps> leaps_of(bool quick) {
-  return {
-      {"cloth on a sphere", [=] { return cloth(quick ? 16 : 80, 24); }, 3},
-      {"a pile of blobs of 320", [=] { return pile(quick ? 27 : 500, 4, 24); }, 3},
-      {"layers of cloth", [=] { return layers(quick ? 3 : 20, quick ? 12 : 60, 24); }, 3},
-      {"blobs on a terrain", [=] { return terrain(quick ? 24 : 120, quick ? 20 : 200, 24); }, 3},
-      {"scattered blobs of 80", [=] { return scattered(quick ? 60 : 2000, 24); }, 6},
-      {"two blobs of 20,480", [=] { return large_pair(quick ? 8 : 32, 24); }, 3},
-      {"a chain of rings", [=] { return chain(quick ? 8 : 60, 24); }, 3},
-      {"cloth on a sphere, carried by its size",
-       [=] {
-         return carried(cloth(quick ? 16 : 80, 24), 3, {1.5, 2.5, 3.0}, 0.0);
-       },
-       3},
-      {"cloth on a sphere, turned by 0.5",
-       [=] {
-         return carried(cloth(quick ? 16 : 80, 24), 3, {0, 0, 0}, kHalfTurn);
-       },
-       3},
-      {"layers of cloth, carried by their size",
-       [=] {
-         return carried(layers(quick ? 3 : 20, quick ? 12 : 60, 24), 3, {1.5, 2.5, 3.0}, 0.0);
-       },
-       3},
-      {"scattered blobs of 80, carried far",
-       [=] {
-         return carried(scattered(quick ? 60 : 2000, 24), 6, {60, 40, 90}, 0.0);
-       },
-       6},
-      {"scattered blobs of 80, turned by 0.5",
-       [=] {
-         return carried(scattered(quick ? 60 : 2000, 24), 6, {0, 0, 0}, kHalfTurn);
-       },
-       6},
-      {"a pile of blobs of 320, turned by 0.5",
-       [=] {
-         return carried(pile(quick ? 27 : 500, 4, 24), 3, {0, 0, 0}, kHalfTurn);
-       },
-       3},
+  const auto on_sphere = [=] { return cloth(quick ? 16 : 80, 24); };
+  const auto blobs = [=] { return pile(quick ? 27 : 500, 4, 24); };
+  const auto in_layers = [=] { return layers(quick ? 3 : 20, quick ? 12 : 60, 24); };
+  const auto apart = [=] { return scattered(quick ? 60 : 2000, 24); };
+  const auto carry = [](const char* name, const auto& make, int frames, const Eigen::Vector3d& way, double turn) {
+    return Leaps{name, [=] { return carried(make(), frames, way, turn); }, frames};
   };
+  return {{"cloth on a sphere", on_sphere, 3},
+          {"a pile of blobs of 320", blobs, 3},
+          {"layers of cloth", in_layers, 3},
+          {"blobs on a terrain", [=] { return terrain(quick ? 24 : 120, quick ? 20 : 200, 24); }, 3},
+          {"scattered blobs of 80", apart, 6},
+          {"two blobs of 20,480", [=] { return large_pair(quick ? 8 : 32, 24); }, 3},
+          {"a chain of rings", [=] { return chain(quick ? 8 : 60, 24); }, 3},
+          carry("cloth on a sphere, carried by its size", on_sphere, 3, {1.5, 2.5, 3.0}, 0.0),
+          carry("cloth on a sphere, turned by 0.5", on_sphere, 3, {0, 0, 0}, kHalfTurn),
+          carry("layers of cloth, carried by their size", in_layers, 3, {1.5, 2.5, 3.0}, 0.0),
+          carry("scattered blobs of 80, carried far", apart, 6, {60, 40, 90}, 0.0),
+          carry("scattered blobs of 80, turned by 0.5", apart, 6, {0, 0, 0}, kHalfTurn),
+          carry("a pile of blobs of 320, turned by 0.5", blobs, 3, {0, 0, 0}, kHalfTurn)};
 }
 
 Table measure_leaps(const std::vector<Leaps>& all, const std::string& only, int threads, double budget_ms,

@@ -1,6 +1,7 @@
 #include "engine/bodies/checks.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <type_traits>
 

@@ -1,6 +1,5 @@
 #include <filesystem>
 #include <iterator>
-#include <sstream>
 #include <system_error>
 
 #include "handles.h"
@@ -60,8 +59,7 @@ tact_error tact_world_record(tact_world world, const char* path) {
       if (!whole) throw tact::c::kCannotWrite;
       return;
     }
-    std::ostringstream nowhere;
-    tact::Recorder trial(nowhere);
+    tact::WorldObserver trial;
     entry.world.set_observer(&trial);  // a refused call empties no file
     entry.world.set_observer(entry.recording == nullptr ? nullptr : &entry.recording->recorder);
     std::ofstream file(tact::c::path_of(path), std::ios::binary);

@@ -119,11 +119,11 @@ Eigen::Matrix3Xd checked(const Stencils& stencils, py::handle given, const std::
   return values;
 }
 
-// term(stencil, its number) of each; without Hessians their array is empty, and they are not projected.
-enum class Hessians { none, as_they_are, projected };
-
+enum class Hessians { none, exact, projected };
+Hessians exact_if(bool wanted) { return wanted ? Hessians::exact : Hessians::none; }
 Hessians projected_if(bool wanted) { return wanted ? Hessians::projected : Hessians::none; }
 
+// term(stencil, its number) of each. The array of Hessians that are not wanted is empty.
 template <class TermOf>
 Terms terms_of(const Stencils& stencils, Hessians wanted, const TermOf& term_of) {
   const base::FloatingPointMode mode;
@@ -146,8 +146,7 @@ Terms terms_of(const Stencils& stencils, Hessians wanted, const TermOf& term_of)
 
 Terms gaps(const Stencils& stencils, py::handle positions, bool hessians) {
   const Eigen::Matrix3Xd x = checked(stencils, positions, "positions");
-  const Hessians wanted = hessians ? Hessians::as_they_are : Hessians::none;
-  return terms_of(stencils, wanted, [&](const Stencil& stencil, std::size_t) {
+  return terms_of(stencils, exact_if(hessians), [&](const Stencil& stencil, std::size_t) {
     return solver::gap_of(stencil, solver::gather(stencil, x)).distance;
   });
 }
@@ -189,8 +188,7 @@ Terms friction(const Stencils& stencils, py::handle moved, const std::vector<dou
                bool hessians) {
   const Eigen::Matrix3Xd way = checked(stencils, moved, "moved");
   if (limits.size() != stencils.all.size()) throw py::value_error("limits has not a number for each stencil");
-  const Hessians wanted = hessians ? Hessians::as_they_are : Hessians::none;
-  return terms_of(stencils, wanted, [&](const Stencil& stencil, std::size_t i) {
+  return terms_of(stencils, exact_if(hessians), [&](const Stencil& stencil, std::size_t i) {
     return solver::friction_term(stencil, solver::tangents(stencil.normal), solver::gather(stencil, way), limits[i],
                                  smoothing);
   });

@@ -4,19 +4,18 @@
 #include <tact/recording.h>
 #include <tact/tact.h>
 
-#include <fstream>
-#include <iterator>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
+
+#include "tests/support/environment/temporary_folder.h"
 
 namespace tact::tests {
 namespace {
 
 std::string bytes_of(const std::string& name) {
-  std::ifstream file(TACT_SOURCE_DIR "/tests/engine/recording/formats/" + name, std::ios::binary);
-  EXPECT_TRUE(file) << name;
-  return {std::istreambuf_iterator<char>(file), {}};
+  return contents(TACT_SOURCE_DIR "/tests/engine/recording/formats/" + name);
 }
 
 class RecordingFormats : public testing::TestWithParam<int> {
