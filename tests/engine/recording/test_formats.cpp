@@ -58,7 +58,7 @@ TEST_P(RecordingFormats, Play) {
   EXPECT_EQ(settings.facet_layers.size(), format() >= 8 ? 4u : 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, RecordingFormats, testing::Values(3, 4, 8));
+INSTANTIATE_TEST_SUITE_P(All, RecordingFormats, testing::Range(3, 9));
 
 TEST(StateFormats, TheOneOfThisVersionIsRestored) {
   const std::string file = bytes_of("state_4.tactstate");

@@ -195,10 +195,34 @@ typedef struct tact_statistic {
   double ms;     /**< 0 if it is a count */
 } tact_statistic;
 
+/** The work of an event: see tact_trace_event. */
+typedef enum tact_trace_kind {
+  TACT_TRACE_REFRESH = 0,      /**< stage 1: a call of tact_world_set_positions(), or grouping facets again */
+  TACT_TRACE_DETECT = 1,       /**< tact_world_detect() without stage 1 */
+  TACT_TRACE_SWEEP = 2,        /**< stage 2 */
+  TACT_TRACE_NARROW_PHASE = 3, /**< stages 3 to 6 of all pairs, on the thread that called */
+  TACT_TRACE_PAIR = 4,         /**< a pair that took 20 microseconds or more, with the four stages that follow */
+  TACT_TRACE_HULLS = 5,        /**< stage 3 of a pair */
+  TACT_TRACE_DIRECTION = 6,    /**< stage 4 of a pair */
+  TACT_TRACE_CULL = 7,         /**< stage 5 of a pair */
+  TACT_TRACE_CONFIRM = 8,      /**< stage 6 of a pair, or what was left of it for all large pairs */
+  TACT_TRACE_RANGE = 9,        /**< the part of a thread in stage 6 of a large pair */
+  TACT_TRACE_SMALL_PAIRS = 10, /**< pairs that took less, one after the other */
+  TACT_TRACE_KDOP_SEPARATED_PAIRS = 11, /**< pairs that an axis of the 18-DOPs separates, on all threads */
+  TACT_TRACE_CONTAINMENT = 12,          /**< bodies that are wholly inside others */
+  TACT_TRACE_CURVES = 13,               /**< intersection curves */
+  TACT_TRACE_POINTS = 14,               /**< contact points of pairs of bodies */
+  TACT_TRACE_SELF_FACETS = 15,          /**< facet pairs of bodies with themselves */
+  TACT_TRACE_SELF_POINTS = 16,          /**< contact points of bodies with themselves */
+  TACT_TRACE_PATCHES = 17,              /**< patches */
+  TACT_TRACE_REPORT = 18,               /**< stage 7 */
+  TACT_TRACE_WITHIN_REACH = 19,         /**< pairs of features within reach */
+} tact_trace_kind;
+
 /** A part of one thread's work: see tact::TraceEvent. Times are nanoseconds of the steady clock. */
 typedef struct tact_trace_event {
   uint32_t struct_size;
-  int32_t kind; /**< in the order of tact::TraceEvent::Kind */
+  int32_t kind; /**< tact_trace_kind */
   int32_t thread;
   int64_t begin_ns;
   int64_t end_ns;
