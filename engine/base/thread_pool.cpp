@@ -63,7 +63,7 @@ void ThreadPool::work() {
     wanted_.wait(lock, [&] { return ends_ || !calls_.empty(); });
     if (ends_) return;
     Call& call = *calls_.front();
-    if (call.next + 1 == call.count) calls_.pop_front();
+    if (call.next + 1 == call.count) calls_.erase(calls_.begin());
     take_one(call, lock);
   }
 }

@@ -4,7 +4,6 @@
 #include <tact/executor.h>
 
 #include <condition_variable>
-#include <deque>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -35,7 +34,7 @@ class ThreadPool final : public Executor {
 
   std::mutex mutex_;
   std::condition_variable wanted_, done_;
-  std::deque<Call*> calls_;  // with indices that nobody has taken
+  std::vector<Call*> calls_;  // with indices that nobody has taken
   std::vector<std::thread> threads_;
   bool ends_ = false;
 };

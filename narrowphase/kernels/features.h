@@ -19,6 +19,12 @@ struct alignas(64) MovingPolygons {
   int count = 0;
 };
 
+// How near to the origin moving polygons count: `reach`, or where one begins nearer, that share of its distance then;
+// and `wider` beyond that.
+struct PolygonReach {
+  double reach = 0.0, share_of_gap = 1.0, wider = 0.0;
+};
+
 // The vertices of some clusters, one cluster after the other, owned ones first, times a power of two, and what rules
 // each out: a bit for each side of a box.
 struct alignas(64) ClusterPoints {

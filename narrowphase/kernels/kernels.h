@@ -203,8 +203,8 @@ struct Kernels {
   // `outside`, too.
   void (*append_near_ways)(const VertexWays& vertices, const std::uint8_t* outside, const FeatureCorners& features,
                            int first, FeatureWays* near);
-  // A bit for each polygon that certainly stays farther than `reach` from the origin, all the time.
-  std::uint64_t (*apart_throughout)(const MovingPolygons& polygons, double reach);
+  // A bit for each polygon that certainly stays farther from the origin than its reach, all the time.
+  std::uint64_t (*apart_throughout)(const MovingPolygons& polygons, const PolygonReach& reach);
 
   // As near_edges(), without those that certainly are not nearer than `reach` anywhere.
   std::uint64_t (*close_edges)(const PlacedFeatures& few, const PlacedFeatures& many, double reach,

@@ -35,7 +35,7 @@ struct PolygonLanes {
   VectorPack corner[2][kCorners];
   Pack least;  // what a corner has to exceed along a direction of length 1
 
-  PolygonLanes(const MovingPolygons& in, int i, double reach) {
+  PolygonLanes(const MovingPolygons& in, int i, const PolygonReach& reach) {
     Pack size = spread(0.0);
     for (int time = 0; time < 2; ++time) {
       for (int c = 0; c < kCorners; ++c) {
@@ -45,7 +45,8 @@ struct PolygonLanes {
       }
     }
     size_ = size;
-    reach_ = spread(reach);
+    reach_ = spread(reach.wider + reach.reach);
+    if (reach.reach > 0.0) reach_ = allowed_reach(reach);
     least = add(reach_, mul(size, spread(kRounding)));
   }
 
@@ -95,6 +96,17 @@ struct PolygonLanes {
   }
 
  private:
+  // Less in lanes in which a corner begins nearer than the reach.
+  Pack allowed_reach(const PolygonReach& reach) const {
+    Pack length = length_bound(corner[0][0]), squared = dot(corner[0][0], corner[0][0]);
+    for (int c = 1; c < kCorners; ++c) {
+      length = min(length, length_bound(corner[0][c]));
+      squared = min(squared, dot(corner[0][c], corner[0][c]));
+    }
+    const Pack of_gap = add(mul(length, spread((1.0 + 0x1p-40) * reach.share_of_gap)), spread(reach.wider));
+    return select(less(squared, spread((1.0 - 0x1p-40) * reach.reach * reach.reach)), min(of_gap, reach_), reach_);
+  }
+
   static Mask is_outside(Pack low, Pack high, Pack bound) {
     return either(less(bound, low), less(high, sub(spread(0.0), bound)));
   }
@@ -103,7 +115,7 @@ struct PolygonLanes {
 };
 
 template <int kCorners>
-inline unsigned certainly_apart(const MovingPolygons& in, int i, double reach) {
+inline unsigned certainly_apart(const MovingPolygons& in, int i, const PolygonReach& reach) {
   const PolygonLanes<kCorners> polygon(in, i, reach);
   VectorPack middle[kCorners], begin = polygon.corner[0][0], end = polygon.corner[1][0];
   for (int c = 0; c < kCorners; ++c) {
@@ -123,7 +135,7 @@ inline unsigned certainly_apart(const MovingPolygons& in, int i, double reach) {
   return bits(apart);
 }
 
-std::uint64_t apart_throughout(const MovingPolygons& polygons, double reach) {
+std::uint64_t apart_throughout(const MovingPolygons& polygons, const PolygonReach& reach) {
   std::uint64_t apart = 0;
   for (int i = 0; i < polygons.count; i += kWidth) {
     const unsigned some =

@@ -401,11 +401,11 @@ class ImpactSearch {
     counts_.candidates += count;
     const std::size_t kept_before = kept_ == nullptr ? 0 : kept_->size();
     if (kept_ != nullptr) {
-      waiting.keep(open_lanes(waiting, scaled_reach_ + kept_wider_ + kKeptOfSize * kept_size_));
+      waiting.keep(open_lanes(waiting, kept_wider_ + kKeptOfSize * kept_size_));
       kept_->insert(kept_->end(), waiting.pair, waiting.pair + waiting.polygons.count);
       if (waiting.polygons.count == 0) return;
     }
-    std::uint64_t left = open_lanes(waiting, scaled_reach_);
+    std::uint64_t left = open_lanes(waiting, 0.0);
     waiting.polygons.count = 0;
     counts_.searched += std::popcount(left);
     for (; left != 0; left &= left - 1) {
@@ -415,8 +415,10 @@ class ImpactSearch {
   }
 
   // Those, of one or more, that the filter does not leave out.
-  static std::uint64_t open_lanes(const Waiting& waiting, double reach) {
+  std::uint64_t open_lanes(const Waiting& waiting, double wider) const {
     static_assert(MovingPolygons::kCapacity == 64);
+    // Where reaches differ, that of a pair may lie between its distance and the largest reach.
+    const PolygonReach reach{scaled_reach_, rules_.reach.is_uniform() ? kShareOfGap : 1.0, wider};
     return ~std::uint64_t{0} >> (64 - waiting.polygons.count) & ~kernels().apart_throughout(waiting.polygons, reach);
   }
 

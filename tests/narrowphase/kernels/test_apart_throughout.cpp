@@ -23,7 +23,8 @@ TEST(ApartThroughout, LeavesOutNothingThatMeets) {
   MeetingSearch search;
   std::int64_t left_out = 0, meeting = 0;
   for (int block = 0; block < 400; ++block) {
-    for (const double reach : {0.0, 0.01}) {
+    for (const double reach : {0.0, 0.01, 0.5}) {
+      const narrowphase::PolygonReach counts{reach, narrowphase::kShareOfGap};
       narrowphase::MovingPolygons polygons;
       polygons.corners = 3 + block % 2;
       std::vector<MovingPolygon> all;
@@ -41,17 +42,17 @@ TEST(ApartThroughout, LeavesOutNothingThatMeets) {
         }
         if (size > 2.0) continue;
         for (int time = 0; time < 2; ++time) {
-          for (int i = 0; i < polygon.count; ++i) {
-            for (int axis = 0; axis < 3; ++axis)
-              polygons.corner[time][i][axis][polygons.count] = heads(polygon.corner[time][i])[axis];
+          for (int i = 0; i < polygons.corners; ++i) {
+            const Vec3 corner = heads(polygon.corner[time][std::min(i, polygon.count - 1)]);
+            for (int axis = 0; axis < 3; ++axis) polygons.corner[time][i][axis][polygons.count] = corner[axis];
           }
         }
         ++polygons.count;
         all.push_back(polygon);
       }
-      const std::uint64_t apart = narrowphase::scalar_kernels()->apart_throughout(polygons, reach);
+      const std::uint64_t apart = narrowphase::scalar_kernels()->apart_throughout(polygons, counts);
       for (const narrowphase::Kernels* kernels : available_kernels())
-        EXPECT_EQ(kernels->apart_throughout(polygons, reach), apart) << kernels->name;
+        EXPECT_EQ(kernels->apart_throughout(polygons, counts), apart) << kernels->name;
       for (std::size_t i = 0; i < all.size(); ++i) {
         const bool meets = search.first(all[i], reach).time <= 1.0;
         meeting += meets;
