@@ -203,20 +203,27 @@ std::size_t count_impacts(tact::World& world, tact::BodyId body) {
       std::ranges::count_if(pairs, [&](const tact::ImpactPair& pair) { return pair.a == body || pair.b == body; }));
 }
 
-int main() {
-  Membrane membrane;
-  Thread thread;
-  Matrix3Xd ball(3, 41 * 21);  // rolled up: its sides and ends meet, vertices may be repeated
-  Eigen::Matrix3Xi ball_facets(3, 2 * 40 * 20);
+// Rolled up: its sides and ends meet, vertices may be repeated.
+void make_ball(Matrix3Xd& ball, Eigen::Matrix3Xi& facets) {
+  ball.resize(3, 41 * 21);
+  facets.resize(3, 2 * 40 * 20);
   for (int v = 0; v < ball.cols(); ++v) {
     const double turn = std::numbers::pi * (v % 41 % 40) / 20.0, up = std::numbers::pi * (v / 41 / 20.0 - 0.5);
     ball.col(v) = kRadius * Vector3d(std::cos(up) * std::cos(turn), std::cos(up) * std::sin(turn), std::sin(up));
   }
-  for (int f = 0; f < ball_facets.cols(); f += 2) {
+  for (int f = 0; f < facets.cols(); f += 2) {
     const int a = f / 2 + f / 2 / 40, c = a + 41;
-    ball_facets.col(f) << a, a + 1, c + 1;
-    ball_facets.col(f + 1) << a, c + 1, c;
+    facets.col(f) << a, a + 1, c + 1;
+    facets.col(f + 1) << a, c + 1, c;
   }
+}
+
+int main() {
+  Membrane membrane;
+  Thread thread;
+  Matrix3Xd ball;
+  Eigen::Matrix3Xi ball_facets;
+  make_ball(ball, ball_facets);
   tact::World world({.outputs = {.points = true}});
   const tact::BodyId id = world.add_body({.positions = membrane.now,
                                           .facets = membrane.facets,

@@ -75,76 +75,40 @@ struct RecordingPlayer::Implementation {
   // Makes the call of a record that is neither detect nor hash.
   void play(RecordKind kind) {
     switch (kind) {
-      case RecordKind::settings: {
-        const Settings settings = read_settings();
-        return make([&] { world->set_settings(settings); });
-      }
+      case RecordKind::settings: return set_settings();
       case RecordKind::add: return add_body();
       case RecordKind::bare: return read_bare();
       case RecordKind::plane: return add_plane();
-      case RecordKind::remove: {
-        const BodyId body = read_body();
-        return make([&] { world->remove_body(body); });
-      }
+      case RecordKind::remove: return remove_body();
       case RecordKind::positions: return set_positions();
       case RecordKind::facets: return set_facets();
       case RecordKind::poses: return set_poses();
-      case RecordKind::layers: {
-        const BodyId body = read_body();
-        const auto layer = reader.read<std::uint32_t>(), mask = reader.read<std::uint32_t>();
-        return make([&] { world->set_layers(body, layer, mask); });
-      }
-      case RecordKind::group: {
-        const BodyId body = read_body();
-        const auto group = reader.read<std::uint32_t>();
-        return make([&] { world->set_group(body, group); });
-      }
-      case RecordKind::excluded: {
-        const BodyId a = read_body(), b = read_body();
-        const bool excluded = read_flag();
-        return make([&] { world->set_excluded(a, b, excluded); });
-      }
-      case RecordKind::motion: {
-        const BodyId body = read_body();
-        const auto motion = read_enumeration(Motion::rigid);
-        return make([&] { world->set_motion(body, motion); });
-      }
-      case RecordKind::margin: {
-        const BodyId body = read_body();
-        const auto margin = reader.read<double>();
-        return make([&] { world->set_margin(body, margin); });
-      }
-      case RecordKind::rest_offset: {
-        const BodyId body = read_body();
-        const auto offset = reader.read<double>();
-        const bool is_given = offset != recording::kAsMargin;
-        return make([&] { world->set_rest_offset(body, is_given ? std::optional(offset) : std::nullopt); });
-      }
+      case RecordKind::layers: return set_layers();
+      case RecordKind::group: return set_group();
+      case RecordKind::excluded: return set_excluded();
+      case RecordKind::motion: return set_motion();
+      case RecordKind::margin: return set_margin();
+      case RecordKind::rest_offset: return set_rest_offset();
       case RecordKind::features: return set_feature_settings();
       case RecordKind::neighbors: return set_self_contact_filter();
       case RecordKind::excluded_labels: return set_excluded_labels();
-      case RecordKind::facet_map: {
-        next_facet_map = read_all<std::int32_t>(reader.read<std::uint64_t>());
-        return;
-      }
-      case RecordKind::self_contact: {
-        const BodyId body = read_body();
-        const bool wanted = read_flag();
-        return make([&] { world->set_self_contact(body, wanted); });
-      }
+      case RecordKind::self_contact: return set_self_contact();
       case RecordKind::points: return add_output(&Outputs::points);
       case RecordKind::curves: return add_output(&Outputs::curves);
       case RecordKind::within_reach: return add_output(&Outputs::within_reach);
-      case RecordKind::key: {
-        next_key = reader.read<std::uint64_t>();
-        return;
-      }
       case RecordKind::restore: return restore();
+      case RecordKind::facet_map: next_facet_map = read_all<std::int32_t>(reader.read<std::uint64_t>()); return;
+      case RecordKind::key: next_key = reader.read<std::uint64_t>(); return;
       case RecordKind::detect:
       case RecordKind::hash:
       case RecordKind::failed: break;
     }
     fail(kind == RecordKind::hash ? "a hash that follows no step" : "a failure that follows no step");
+  }
+
+  void set_settings() {
+    const Settings settings = read_settings();
+    make([&] { world->set_settings(settings); });
   }
 
   void add_output(bool Outputs::*output) {
@@ -250,6 +214,11 @@ struct RecordingPlayer::Implementation {
     next_key.reset();
   }
 
+  void remove_body() {
+    const BodyId body = read_body();
+    make([&] { world->remove_body(body); });
+  }
+
   void set_positions() {
     constexpr std::size_t kSmallest = 16;  // bytes of a body without vertices
     const auto count = reader.read<std::uint64_t>();
@@ -282,6 +251,49 @@ struct RecordingPlayer::Implementation {
     next_edges.resize(2, 0);
     next_points.clear();
     next_facet_map.clear();
+  }
+
+  void set_layers() {
+    const BodyId body = read_body();
+    const auto layer = reader.read<std::uint32_t>(), mask = reader.read<std::uint32_t>();
+    make([&] { world->set_layers(body, layer, mask); });
+  }
+
+  void set_group() {
+    const BodyId body = read_body();
+    const auto group = reader.read<std::uint32_t>();
+    make([&] { world->set_group(body, group); });
+  }
+
+  void set_excluded() {
+    const BodyId a = read_body(), b = read_body();
+    const bool excluded = read_flag();
+    make([&] { world->set_excluded(a, b, excluded); });
+  }
+
+  void set_motion() {
+    const BodyId body = read_body();
+    const auto motion = read_enumeration(Motion::rigid);
+    make([&] { world->set_motion(body, motion); });
+  }
+
+  void set_margin() {
+    const BodyId body = read_body();
+    const auto margin = reader.read<double>();
+    make([&] { world->set_margin(body, margin); });
+  }
+
+  void set_rest_offset() {
+    const BodyId body = read_body();
+    const auto offset = reader.read<double>();
+    const bool is_given = offset != recording::kAsMargin;
+    make([&] { world->set_rest_offset(body, is_given ? std::optional(offset) : std::nullopt); });
+  }
+
+  void set_self_contact() {
+    const BodyId body = read_body();
+    const bool wanted = read_flag();
+    make([&] { world->set_self_contact(body, wanted); });
   }
 
   void set_feature_settings() {

@@ -144,6 +144,62 @@ int frames_to_step(const CheckOptions& options, const std::vector<BodyFrames>& b
   return held > 0 ? held : std::max(options.frames, 1);
 }
 
+// What is written of each frame: a page to look at, JSON, a table, files for ParaView.
+class FrameWriters {
+ public:
+  FrameWriters(const CheckOptions& options, const CheckSteps& steps, const World& world, OutputFile* json_file,
+               std::ostream& out)
+      : steps_(steps), world_(world), json_file_(json_file), out_(out), standard_output_is_json_(options.json == "-") {
+    if (!options.view.file.empty()) page_.emplace(options.view, title_of(steps.bodies()), out);
+    if (json_file != nullptr)
+      json_.emplace(json_file->stream(), world, page_ ? JsonReport::Outcomes::counts : JsonReport::Outcomes::none,
+                    options.surfaces ? JsonReport::Surfaces::checked : JsonReport::Surfaces::taken,
+                    options.weld ? steps.welds() : std::vector<Weld>());
+    if (!standard_output_is_json_ && options.table) {
+      if (options.surfaces) print_surfaces(out, world);
+      table_.emplace(out, world);
+      if (options.weld) print_welds(steps.bodies(), out);
+    }
+    if (!options.vtk.empty()) vtk_.emplace(options.vtk, kVtkName);
+  }
+
+  void add(int frame, const CheckedFrame& checked, std::optional<double> time) {
+    if (json_) json_->add_frame(frame, checked.report, checked.motion, steps_.files_of(frame), time);
+    if (table_) table_->add_frame(frame, checked.report, checked.motion);
+    if (page_) page_->add_step(frame, time, world_, checked.report);
+    if (vtk_) write_vtk(steps_, checked.report, time.value_or(frame), world_, *vtk_);
+  }
+
+  void finish_table(int frame, int frames) {
+    if (!table_) return;
+    if (frame < frames) fmt::print(out_, "\ninterrupted after {} of {} frames\n", frame, frames);
+    table_->finish();
+  }
+  void finish_json(Ending ending) {
+    if (!json_) return;
+    json_->finish(ending);
+    json_file_->finish();
+  }
+  void finish_page(Ending ending) {
+    if (page_) page_->finish(ending);
+  }
+  void print_where() const {
+    if (page_ && !standard_output_is_json_) fmt::print(out_, "{}\n", page_->summary());
+    if (vtk_ && table_) fmt::print(out_, "frames for ParaView: {}\n", vtk_->index_file().string());
+  }
+
+ private:
+  const CheckSteps& steps_;
+  const World& world_;
+  OutputFile* const json_file_;  // null: none
+  std::ostream& out_;
+  const bool standard_output_is_json_;
+  std::optional<ViewPage> page_;
+  std::optional<JsonReport> json_;
+  std::optional<TableReport> table_;
+  std::optional<VtkSeries> vtk_;
+};
+
 }  // namespace
 
 void check(const CheckOptions& options, std::ostream& out) {
@@ -170,50 +226,24 @@ void check(const CheckOptions& options, std::ostream& out) {
   const int frames = frames_to_step(options, bodies);
   CheckSteps steps(std::move(bodies), excluded, world);
 
-  std::optional<ViewPage> page;
-  if (!options.view.file.empty()) page.emplace(options.view, title_of(steps.bodies()), out);
-  std::optional<JsonReport> json;
-  if (json_file)
-    json.emplace(json_file->stream(), world, page ? JsonReport::Outcomes::counts : JsonReport::Outcomes::none,
-                 options.surfaces ? JsonReport::Surfaces::checked : JsonReport::Surfaces::taken,
-                 options.weld ? steps.welds() : std::vector<Weld>());
-  std::optional<TableReport> table;
-  if (options.json != "-" && options.table) {
-    if (options.surfaces) print_surfaces(out, world);
-    table.emplace(out, world);
-    if (options.weld) print_welds(steps.bodies(), out);
-  }
-
-  std::optional<VtkSeries> vtk;
-  if (!options.vtk.empty()) vtk.emplace(options.vtk, kVtkName);
+  FrameWriters writers(options, steps, world, json_file ? &*json_file : nullptr, out);
   const std::vector<double> times = times_of(steps.bodies());
   ProgressLine progress("frame", frames, ProgressLine::Beside::output);
   int frame = 0;
   for (; frame < frames && !interrupt.requested(); ++frame) {
     const CheckedFrame checked = steps.step(frame, options.impacts);
-    const std::optional<double> time =
-        times.empty() ? std::nullopt : std::optional(times[static_cast<std::size_t>(frame)]);
-    if (json) json->add_frame(frame, checked.report, checked.motion, steps.files_of(frame), time);
-    if (table) table->add_frame(frame, checked.report, checked.motion);
-    if (page) page->add_step(frame, time, world, checked.report);
-    if (vtk) write_vtk(steps, checked.report, time.value_or(frame), world, *vtk);
+    writers.add(frame, checked, times.empty() ? std::nullopt : std::optional(times[static_cast<std::size_t>(frame)]));
     progress.show(frame + 1);
   }
   progress.clear();
+  writers.finish_table(frame, frames);
   const Ending ending = frame < frames ? Ending::interrupted : Ending::complete;
-  if (table && ending == Ending::interrupted) fmt::print(out, "\ninterrupted after {} of {} frames\n", frame, frames);
-  if (table) table->finish();
-  const auto finish_json = [&] {
-    json->finish(ending);
-    json_file->finish();
-  };
   Failures failures;
-  if (json) failures.attempt(finish_json);
+  failures.attempt([&] { writers.finish_json(ending); });
   if (recording) failures.attempt([&] { recording->finish(); });
-  if (page) failures.attempt([&] { page->finish(ending); });
+  failures.attempt([&] { writers.finish_page(ending); });
   failures.report();
-  if (page && options.json != "-") fmt::print(out, "{}\n", page->summary());
-  if (vtk && table) fmt::print(out, "frames for ParaView: {}\n", vtk->index_file().string());
+  writers.print_where();
 }
 
 void add_check_command(CLI::App& program) {
