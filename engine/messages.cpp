@@ -3,6 +3,8 @@
 #include <new>
 #include <string>
 
+#include "engine/bodies/encloses.h"
+
 namespace tact {
 
 namespace {
@@ -49,14 +51,21 @@ void tell_limits(const Report& report, const Bodies& bodies, const MessageFuncti
   tell({.kind = MessageKind::gjk_limit, .a = {}, .b = {}, .text = text});
 }
 
-void tell_open_surface(const Body& body, const MessageFunction& tell) {
-  if (body.surface != Surface::closed || body.has_inside || !tell) return;
-  const std::string text = text_if_there_is_room([&] {
-    return "body '" + body.name +
-           "' was added as closed and is taken as a sheet: its surface has a border, facets turned against each other, "
-           "or each facet twice, once each way";
-  });
-  tell({.kind = MessageKind::open_surface, .a = body.id, .b = body.id, .text = text});
+void tell_wrong_surface(const Body& body, const MessageFunction& tell) {
+  if (body.surface != Surface::closed || !tell) return;
+  const auto tell_of = [&](MessageKind kind, const char* words) {
+    const std::string text = text_if_there_is_room([&] { return "body '" + body.name + "' " + words; });
+    tell({.kind = kind, .a = body.id, .b = body.id, .text = text});
+  };
+  if (!body.has_inside) {
+    tell_of(MessageKind::open_surface,
+            "was added as closed and is taken as a sheet: its surface has a border, facets turned against each other, "
+            "or each facet twice, once each way");
+  } else if (!body.is_outward && is_inside_out(body.mesh)) {
+    tell_of(MessageKind::inside_out,
+            "is inside out: its facets are clockwise seen from outside, so most of its negative gaps are missing; "
+            "exchange two corners of each facet");
+  }
 }
 
 }  // namespace tact

@@ -90,7 +90,7 @@ void World::set_settings(const Settings& settings) {
 BodyId World::add_body(const BodyDefinition& definition) {
   const base::FloatingPointMode mode;
   Implementation& i = implementation();
-  const auto tell = [&](const Body& body) { tell_open_surface(body, i.settings.on_message); };
+  const auto tell = [&](const Body& body) { tell_wrong_surface(body, i.settings.on_message); };
   const BodyId body = with_memory("adding a body ran out of memory", [&] { return i.bodies.add(definition, tell); });
   i.observe([&](WorldObserver& observer) { observer.body_added(body, definition); });
   return body;

@@ -44,7 +44,7 @@ export type Impacts = "all" | "first_of_pair" | "first";
 export type FeaturePair = "vertex_facet" | "facet_vertex" | "edge_edge" | "vertex_edge" | "edge_vertex" | "vertex_vertex" | "vertex_plane" | "plane_vertex";
 
 export interface Message {
-  kind: "direction_limit" | "gjk_limit" | "point_limit" | "open_surface";
+  kind: "direction_limit" | "gjk_limit" | "point_limit" | "open_surface" | "inside_out";
   a: Body | null;
   b: Body | null;
   /** A sentence with the names of the bodies. */

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -46,6 +47,25 @@ std::uint64_t hash_of_facet(std::array<std::uint64_t, 3> corners) {
   return signed_by(forward, base::mixed(hash.value()));
 }
 
+// Six times the volume of the tetrahedra between the first vertex and the facets: with signs, and without.
+struct VolumeSum {
+  double sum = 0.0, sizes = 0.0;
+};
+
+// In the caller's order, so that no grouping decides.
+VolumeSum volume_of(const narrowphase::ClusteredMesh& mesh) {
+  VolumeSum volume;
+  if (mesh.facet_count() == 0) return volume;
+  const base::Vec3 from = mesh.triangle(mesh.facet_of_source(0))[0];
+  for (int source = 0; source < mesh.facet_count(); ++source) {
+    const narrowphase::Triangle t = mesh.triangle(mesh.facet_of_source(source));
+    const double part = dot(t[0] - from, cross(t[1] - from, t[2] - from));
+    volume.sum += part;
+    volume.sizes += std::abs(part);
+  }
+  return volume;
+}
+
 }  // namespace
 
 bool encloses(std::span<const double> positions, std::span<const int> facets) {
@@ -62,16 +82,11 @@ bool encloses(std::span<const double> positions, std::span<const int> facets) {
   return !any || (edges == 0 && sides != 0);
 }
 
-// In the caller's order, so that no grouping decides.
-bool is_outward(const narrowphase::ClusteredMesh& mesh) {
-  if (mesh.facet_count() == 0) return false;
-  const base::Vec3 from = mesh.triangle(mesh.facet_of_source(0))[0];
-  double volume = 0.0;
-  for (int source = 0; source < mesh.facet_count(); ++source) {
-    const narrowphase::Triangle t = mesh.triangle(mesh.facet_of_source(source));
-    volume += dot(t[0] - from, cross(t[1] - from, t[2] - from));
-  }
-  return volume > 0.0;
+bool is_outward(const narrowphase::ClusteredMesh& mesh) { return volume_of(mesh).sum > 0.0; }
+
+bool is_inside_out(const narrowphase::ClusteredMesh& mesh) {
+  const VolumeSum volume = volume_of(mesh);
+  return volume.sum < -0x1p-40 * volume.sizes;
 }
 
 }  // namespace tact

@@ -16,5 +16,7 @@ bool encloses(std::span<const double> positions, std::span<const int> facets);
 
 // Whether the volume that the facets of a mesh enclose is positive: counter-clockwise seen from outside.
 bool is_outward(const narrowphase::ClusteredMesh& mesh);
+// Whether it is negative by more than its rounding; where it vanishes, the mesh is neither.
+bool is_inside_out(const narrowphase::ClusteredMesh& mesh);
 
 }  // namespace tact

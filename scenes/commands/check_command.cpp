@@ -219,7 +219,8 @@ void check(const CheckOptions& options, std::ostream& out) {
   Outputs outputs = options.outputs;
   outputs.patches = outputs.patches || outputs.points;
   const auto warn_of_bodies = [](const Message& message) {
-    if (message.kind == MessageKind::open_surface) print_warning(message.text);
+    if (message.kind == MessageKind::open_surface || message.kind == MessageKind::inside_out)
+      print_warning(message.text);
   };
   World world({.threads = threads, .accuracy = options.accuracy, .outputs = outputs, .on_message = warn_of_bodies});
   if (recording) world.set_observer(&recorder.emplace(recording->stream()));

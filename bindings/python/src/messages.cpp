@@ -74,7 +74,9 @@ void define_messages(py::module_& module) {
              "the search for the direction of a contact stopped at a limit")
       .value("gjk_limit", MessageKind::gjk_limit, "GJK stopped at its limit for pairs that are taken to be apart")
       .value("point_limit", MessageKind::point_limit, "a body crosses itself deeper than its points are found")
-      .value("open_surface", MessageKind::open_surface, "a body was added as closed, and is taken as a sheet");
+      .value("open_surface", MessageKind::open_surface, "a body was added as closed, and is taken as a sheet")
+      .value("inside_out", MessageKind::inside_out,
+             "a closed body was added whose facets are clockwise seen from outside");
   py::class_<KeptMessage>(module, "Message",
                           "A limit that a step reached, or what is wrong with a body that was added.")
       .def_readonly("kind", &KeptMessage::kind)

@@ -145,6 +145,7 @@ class MessageKind:
     gjk_limit: ClassVar[MessageKind]
     point_limit: ClassVar[MessageKind]
     open_surface: ClassVar[MessageKind]
+    inside_out: ClassVar[MessageKind]
     name: str
     value: int
     def __init__(self, value: int) -> None: ...

@@ -112,7 +112,7 @@ def check(
             patches=points,
             curves=curves,
             within_reach=within_reach,
-            on_message=_warn_of_open_surfaces,
+            on_message=_warn_of_surfaces,
         ),
         bodies,
         sheets=_names(sheets),
@@ -146,8 +146,8 @@ def _names(given):
     return [given] if isinstance(given, str) else list(given)
 
 
-def _warn_of_open_surfaces(message):
-    if message.kind == _tact.MessageKind.open_surface:
+def _warn_of_surfaces(message):
+    if message.kind in (_tact.MessageKind.open_surface, _tact.MessageKind.inside_out):
         warnings.warn(message.text, stacklevel=2)
 
 

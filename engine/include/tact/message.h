@@ -14,6 +14,7 @@ enum class MessageKind {
   gjk_limit,        ///< GJK stopped at its limit for pairs that are taken to be apart
   point_limit,      ///< a body crosses itself deeper than its points are found
   open_surface,     ///< a body was added as closed, and is taken as a sheet
+  inside_out,       ///< a closed body was added whose facets are clockwise seen from outside
 };
 
 /// A limit that a step reached, or what is wrong with a body that was added.

@@ -58,10 +58,11 @@ std::vector<Rotation> quarter_turns() {
   return all;
 }
 
-std::vector<std::string> told_of(const Mesh& mesh, Surface surface = Surface::closed) {
+std::vector<std::string> told_of(const Mesh& mesh, Surface surface = Surface::closed,
+                                 MessageKind kind = MessageKind::open_surface) {
   std::vector<std::string> told;
   World world({.on_message = [&](const Message& message) {
-    EXPECT_EQ(message.kind, MessageKind::open_surface);
+    EXPECT_EQ(message.kind, kind);
     EXPECT_EQ(message.a, message.b);
     told.emplace_back(message.text);
   }});
@@ -88,10 +89,24 @@ TEST(OpenSurfaces, AreToldOfOnce) {
   rope.facet(0, 1, 1);
   const Mesh hollow[] = {icosphere(2), turned_inside_out(icosphere(2, 0.5))},
              two[] = {ball, translated(ball, {1, 0, 0})};
-  for (const Mesh& closed : {ball, unwelded(ball), turned_inside_out(ball), torus(8, 8, 1.0, 0.3), merged(hollow),
-                             merged(two), rope.mesh(), Mesh{}}) {
+  for (const Mesh& closed :
+       {ball, unwelded(ball), torus(8, 8, 1.0, 0.3), merged(hollow), merged(two), rope.mesh(), Mesh{}}) {
     EXPECT_TRUE(told_of(closed).empty());
   }
+}
+
+TEST(OpenSurfaces, BodiesInsideOutAreToldOfOnce) {
+  const Mesh two[] = {icosphere(2), turned_inside_out(translated(icosphere(2, 1.5), {4, 0, 0}))};
+  for (const Mesh& turned : {turned_inside_out(icosphere(1)), unwelded(turned_inside_out(cube(1.0, {1e6, 0, 0}))),
+                             turned_inside_out(cube(1e-80, {})), merged(two)}) {
+    const auto told = told_of(turned, Surface::closed, MessageKind::inside_out);
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_NE(told[0].find("'it'"), std::string::npos) << told[0];
+    EXPECT_TRUE(told_of(turned, Surface::sheet).empty());
+  }
+  // Volumes that cancel are neither.
+  const Mesh equal[] = {icosphere(2), turned_inside_out(translated(icosphere(2), {4, 0, 0}))};
+  EXPECT_TRUE(told_of(rotated(merged(equal), rotation(1, 2, 3, 4)), Surface::closed, MessageKind::inside_out).empty());
 }
 
 // -0 and 0 are one place.

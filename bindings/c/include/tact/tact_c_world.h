@@ -114,7 +114,8 @@ typedef enum tact_message_kind {
   TACT_MESSAGE_DIRECTION_LIMIT = 0, /**< the search for the direction of a contact stopped at a limit */
   TACT_MESSAGE_GJK_LIMIT = 1,       /**< GJK stopped at its limit for pairs that are taken to be apart */
   TACT_MESSAGE_POINT_LIMIT = 2,     /**< a body crosses itself deeper than its points are found */
-  TACT_MESSAGE_OPEN_SURFACE = 3     /**< a body was added as closed, and is taken as a sheet */
+  TACT_MESSAGE_OPEN_SURFACE = 3,    /**< a body was added as closed, and is taken as a sheet */
+  TACT_MESSAGE_INSIDE_OUT = 4       /**< a closed body was added whose facets are clockwise seen from outside */
 } tact_message_kind;
 
 /** A limit that a step reached, or what is wrong with a body that was added. */
