@@ -69,6 +69,24 @@ sys.stdout.write(f"{found == [True, False, True]}\\n")
     assert run(2, "-c", program).split() == ["True"] * 2
 
 
+def test_poses_as_arrays():
+    program = """
+from mpi4py import MPI
+import numpy, sys, tact, tact.mpi
+world = tact.mpi.World(MPI.COMM_WORLD)
+corners, keys = numpy.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), [2 * world.rank, 2 * world.rank + 1]
+for key in keys:
+    world.add_body(corners, [[0, 1, 2]], key=key, surface=tact.Surface.sheet, motion=tact.Motion.rigid)
+turn, moves = numpy.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]]), numpy.array([[0, 0, 1], [0, 2, 0]])
+world.set_poses(keys, numpy.array([turn, numpy.eye(3)]), moves)
+same = [(world.positions(keys[0]) == corners @ turn.T + moves[0]).all(), (world.positions(keys[1]) == corners + moves[1]).all()]
+try: world.set_poses(keys, numpy.array([turn]), moves)
+except ValueError as error: same.append("rotations" in str(error))
+sys.stdout.write(f"{len(same) == 3 and all(same)}\\n")
+"""
+    assert run(2, "-c", program).split() == ["True"] * 2
+
+
 def names_in(body):
     return {node.name for node in body if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and node.name[0] != "_"}
 

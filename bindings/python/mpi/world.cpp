@@ -108,6 +108,14 @@ void set_poses(RankWorld& world, const std::map<std::uint64_t, PoseTuple>& poses
   world.use().set_poses(updates);
 }
 
+void set_pose_arrays(RankWorld& world, const std::vector<std::uint64_t>& keys, py::handle rotations,
+                     py::handle translations) {
+  std::vector<mpi::PoseUpdate> updates;
+  for (const std::uint64_t key : keys) updates.push_back({.key = key});
+  take_poses(updates, rotations, translations);
+  world.use().set_poses(updates);
+}
+
 OfStep<mpi::Report> detect(RankWorld& world) {
   const mpi::Report* report = nullptr;
   world.together([&](mpi::World& w) { report = &w.detect(); });
@@ -199,6 +207,8 @@ void define_bodies(WorldClass& world) {
       .def("set_pose", set_pose, py::arg("key"), py::arg("rotation"), py::arg("translation"),
            "places a rigid body: (3, 3), and (3,) metres")
       .def("set_poses", set_poses, py::arg("poses"), "places many rigid bodies in parallel, all or none")
+      .def("set_poses", set_pose_arrays, py::arg("keys"), py::arg("rotations"), py::arg("translations"),
+           "the same as arrays: N keys, (N, 3, 3), and (N, 3) metres")
       .def(
           "owns", [](RankWorld& w, std::uint64_t key) { return w.read().owns(key); }, py::arg("key"))
       .def_property_readonly(

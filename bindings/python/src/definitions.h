@@ -33,6 +33,20 @@ inline std::pair<Eigen::Matrix3d, Eigen::Vector3d> pose_arguments(py::handle rot
           vector_argument(translation, "translation")};
 }
 
+/// Gives N updates their poses: (N, 3, 3), and (N, 3) metres.
+template <class PoseUpdate>
+void take_poses(std::vector<PoseUpdate>& updates, py::handle rotations, py::handle translations) {
+  const auto count = static_cast<py::ssize_t>(updates.size());
+  const py::array_t<double> turns = numbers_argument(rotations, "rotations", {count, 3, 3}),
+                            moves = numbers_argument(translations, "translations", {count, 3});
+  const double *rotation = turns.data(), *translation = moves.data();
+  for (PoseUpdate& update : updates) {
+    update.rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation);
+    update.translation = Eigen::Map<const Eigen::Vector3d>(translation);
+    rotation += 9, translation += 3;
+  }
+}
+
 /// Defines add_body() as add(world, definition, more...); `text` is its documentation, `names` are those of `more`.
 template <class... More, class World, class Add, class... Names>
 void define_add_body(py::class_<World, std::shared_ptr<World>>& of, const char* text, const Add& add,

@@ -85,15 +85,7 @@ void set_poses(SharedWorld& world, const py::dict& poses) {
 void set_pose_arrays(SharedWorld& world, const py::iterable& bodies, py::handle rotations, py::handle translations) {
   std::vector<PoseUpdate> updates;
   for (const py::handle body : bodies) updates.push_back({.body = body_of(body, "bodies:")});
-  const auto count = static_cast<py::ssize_t>(updates.size());
-  const py::array_t<double> turns = numbers_argument(rotations, "rotations", {count, 3, 3}),
-                            moves = numbers_argument(translations, "translations", {count, 3});
-  const double *rotation = turns.data(), *translation = moves.data();
-  for (PoseUpdate& update : updates) {
-    update.rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation);
-    update.translation = Eigen::Map<const Eigen::Vector3d>(translation);
-    rotation += 9, translation += 3;
-  }
+  take_poses(updates, rotations, translations);
   world.compute([&](World& w) { w.set_poses(updates); });
 }
 

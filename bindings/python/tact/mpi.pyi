@@ -206,7 +206,11 @@ class World:
     ) -> None:
         """Gives a body other vertices and facets, as World.set_facets() does."""
     def set_pose(self, key: int, rotation: npt.ArrayLike, translation: npt.ArrayLike) -> None: ...
+    @overload
     def set_poses(self, poses: Mapping[int, tuple[npt.ArrayLike, npt.ArrayLike]]) -> None:
+        """Places many rigid bodies in parallel, all or none."""
+    @overload
+    def set_poses(self, keys: Sequence[int], rotations: npt.ArrayLike, translations: npt.ArrayLike) -> None:
         """Places many rigid bodies in parallel, all or none."""
     def set_layers(self, key: int, layer: int, mask: int) -> None: ...
     def set_group(self, key: int, group: int) -> None: ...
