@@ -36,10 +36,13 @@ inline void sort_by_keys(FacetPair* pairs, int count, int bits_b) {
 
 void sort_pairs(FacetPair* pairs, int count) {
   unsigned all_a = 1, all_b = 1;
+  bool sorted = true;
   for (int i = 0; i < count; ++i) {
     all_a |= static_cast<unsigned>(pairs[i].a);
     all_b |= static_cast<unsigned>(pairs[i].b);
+    sorted &= i == 0 || pairs[i - 1].a < pairs[i].a || (pairs[i - 1].a == pairs[i].a && pairs[i - 1].b < pairs[i].b);
   }
+  if (sorted) return;
   const int bits_a = 32 - __builtin_clz(all_a), bits_b = 32 - __builtin_clz(all_b);
   if (bits_a + bits_b < 32) {
     sort_by_keys<std::int32_t>(pairs, count, bits_b);

@@ -18,6 +18,7 @@ using base::Box;
 using base::Vec3;
 
 constexpr std::size_t kLaneGroup = 8;       // facets inside a cluster are ordered in groups of so many neighbours
+constexpr std::size_t kFewFacets = 16;      // a mesh of so few keeps their order: pairs of them are found sorted
 constexpr std::size_t kMostRefined = 4096;  // facets whose cut is improved: the last cuts share nearly all vertices
 constexpr double kLongEnough = 0.5;         // of the longest axis: another that is cut across
 
@@ -55,7 +56,7 @@ class FacetOrder {
  private:
   void sort(std::size_t begin, std::size_t end) {
     const std::size_t count = end - begin;
-    if (count <= kLaneGroup) return std::sort(place(begin), place(end));
+    if (count <= kLaneGroup || centers_.size() <= kFewFacets) return std::sort(place(begin), place(end));
     const std::size_t unit = count > kClusterSize ? kClusterSize : kLaneGroup;
     const std::size_t units = (count + unit - 1) / unit;
     const Cut cut{begin, begin + (units + 1) / 2 * unit, end};
