@@ -62,8 +62,10 @@ struct CrossingCounts {
 
 // One pair: b somewhere in a, at once or by some steps of any size, with or without margins.
 void count_crossing(const CrossingKind& first, const CrossingKind& second, Random& random, CrossingCounts& counts) {
-  const Mesh a = first.make(random),
-             b = translated(rotated(second.make(random), random.rotation()), 0.7 * random.in_ball());
+  const Mesh a = first.make(random);
+  const Vec3 place = 0.7 * random.in_ball();  // compilers evaluate arguments in orders of their own
+  const Rotation turn = random.rotation();
+  const Mesh b = translated(rotated(second.make(random), turn), place);
   PartingInput input{.margin = random.chance(0.5) ? 0.0 : 0.01, .most_passes = 40};
   if (random.chance(0.5)) {
     input.steps = 1 << random.below(7);

@@ -83,7 +83,8 @@ struct CrossingState {
 // At once or by steps, with or without margins.
 CrossingState random_crossing(const Mesh& a, const Mesh& b, std::uint64_t seed) {
   Random random(seed);
-  CrossingState state{a, translated(rotated(b, random.rotation()), 0.7 * random.in_ball()), {}};
+  const Vec3 place = 0.7 * random.in_ball();  // compilers evaluate arguments in orders of their own
+  CrossingState state{a, translated(rotated(b, random.rotation()), place), {}};
   state.input = {.margin = random.chance(0.5) ? 0.0 : 0.01, .most_passes = 30};
   if (random.chance(0.5)) {
     state.input.steps = 1 << random.below(7);
