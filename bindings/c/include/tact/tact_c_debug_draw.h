@@ -63,7 +63,7 @@ typedef struct tact_debug_draw_options {
   tact_debug_color force;
 } tact_debug_draw_options;
 
-/** Fills in the defaults of all fields of version 1.0, struct_size included; later versions write no more than these. */
+/** Fills in the defaults of all fields of version 1.0, struct_size included; later versions write no others. */
 TACT_C_API tact_error tact_debug_draw_defaults(tact_debug_draw_options* options);
 /** Draws what the last step found; `options` may be null: the default. */
 TACT_C_API tact_error tact_world_debug_draw(tact_world world, const tact_debug_drawer* drawer,
