@@ -38,11 +38,23 @@ std::atomic<bool> has_failed{false};
   return memory;
 }
 
+// As the standard has it: a failure of the operator that throws is a null pointer here.
+[[maybe_unused]] void* allocate_or_null(std::size_t size) noexcept {
+  try {
+    return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
+
 }  // namespace
 
 #ifndef TACT_KEEP_OPERATOR_NEW
 void* operator new(std::size_t size) { return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__); }
 void* operator new[](std::size_t size) { return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__); }
+// std::stable_sort takes its memory so; a sanitizer's own would not know the operators below.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return allocate_or_null(size); }
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return allocate_or_null(size); }
 void* operator new(std::size_t size, std::align_val_t alignment) {
   return allocate(size, static_cast<std::size_t>(alignment));
 }
@@ -53,6 +65,8 @@ void operator delete(void* memory) noexcept { free_aligned(memory); }
 void operator delete[](void* memory) noexcept { free_aligned(memory); }
 void operator delete(void* memory, std::size_t) noexcept { free_aligned(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { free_aligned(memory); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { free_aligned(memory); }
+void operator delete[](void* memory, const std::nothrow_t&) noexcept { free_aligned(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { free_aligned(memory); }
 void operator delete[](void* memory, std::align_val_t) noexcept { free_aligned(memory); }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { free_aligned(memory); }
