@@ -27,8 +27,8 @@ int run(const tact::bench::Command& command, const tact::bench::BenchOptions& op
   if (!options.out.empty()) {
     std::filesystem::create_directories(options.out);
     fmt::output_file((options.out / "machine.txt").string())
-        .print("tact {}, {}{}\n{}\n", TACT_VERSION, command.name, options.quick ? ", quick" : "",
-               tact::bench::machine_line(tact::bench::thread_count(options.threads)));
+        .print("tact {}, commit {}, {}{}\n{}\n", TACT_VERSION, tact::bench::kCommit, command.name,
+               options.quick ? ", quick" : "", tact::bench::machine_line(tact::bench::thread_count(options.threads)));
   }
   return command.run(options);
 }

@@ -30,6 +30,9 @@ std::string three_digits(double value);
 // A line that says where the figures come from: processor, number of them, threads, compiler.
 std::string machine_line(int threads);
 
+// Which commit was built, with "-dirty" behind it if files differed from it.
+extern const char* const kCommit;
+
 // The number of threads that 0 stands for, or `asked`.
 int thread_count(int asked);
 
