@@ -242,68 +242,78 @@ class EveryCallOfC {
     tact_settings settings = TACT_SETTINGS_INIT;
     call([&] { return tact_world_settings(world_, &settings); });
     for (const tact_body body : bodies_) {
-      bool flag = false;
-      const char* name = nullptr;
-      tact_surface surface{};
-      tact_motion motion{};
-      uint32_t bits = 0;
-      uint64_t id = 0;
-      double margin = 0.0;
-      size_t vertices = 0, facets = 0;
-      tact_bounds bounds{};
-      call([&] { return tact_world_contains(world_, body, &flag); });
-      call([&] { return tact_world_name(world_, body, &name); });
-      call([&] { return tact_world_surface(world_, body, &surface); });
-      call([&] { return tact_world_motion(world_, body, &motion); });
-      call([&] { return tact_world_group(world_, body, &bits); });
-      call([&] { return tact_world_layer(world_, body, &bits); });
-      call([&] { return tact_world_mask(world_, body, &bits); });
-      call([&] { return tact_world_external_id(world_, body, &id); });
-      call([&] { return tact_world_key(world_, body, &id); });
-      call([&] { return tact_world_margin(world_, body, &margin); });
-      double rest_offset = 0.0;
-      call([&] { return tact_world_rest_offset(world_, body, &rest_offset); });
-      tell({&rest_offset, 1});
-      tact_feature_settings features = TACT_FEATURE_SETTINGS_INIT;
-      call([&] { return tact_world_feature_settings(world_, body, &features); });
-      tell({features.rest_offsets, features.rest_offset_count});
-      const int vertex[3] = {-1, -1, -1};
-      tact_feature_labels labels{};
-      call([&] { return tact_world_labels(world_, body, vertex, &labels); });
-      tell(std::uint64_t{labels.facet});
-      call([&] { return tact_world_self_contact(world_, body, &flag); });
-      tact_self_contact_filter filter = TACT_SELF_CONTACT_FILTER_INIT;
-      call([&] { return tact_world_self_contact_filter(world_, body, &filter); });
-      tell({&filter.rest_distance, 1});
-      const tact_label_pair pair = {bodies_[0], 1, bodies_[1], 2, TACT_LABEL_FACET};
-      call([&] { return tact_world_excluded_labels(world_, &pair, &flag); });
-      call([&] { return tact_world_vertex_count(world_, body, &vertices); });
-      call([&] { return tact_world_facet_count(world_, body, &facets); });
-      std::vector<double> coordinates(3 * vertices);
-      std::vector<int> corners(3 * facets);
-      call([&] { return tact_world_copy_positions(world_, body, coordinates.data(), coordinates.size()); });
-      call([&] { return tact_world_copy_facets(world_, body, corners.data(), corners.size()); });
-      size_t edges = 1, points = 1;
-      int unused = 0;
-      bool is_plane = false;
-      tact_plane plane;
-      call([&] { return tact_world_edge_count(world_, body, &edges); });
-      call([&] { return tact_world_point_count(world_, body, &points); });
-      call([&] { return tact_world_copy_edges(world_, body, &unused, 0); });
-      call([&] { return tact_world_copy_points(world_, body, &unused, 0); });
-      call([&] { return tact_world_plane(world_, body, &is_plane, &plane); });
-      tell(edges + points + (is_plane ? 1 : 0));
-      call([&] { return tact_world_bounds(world_, body, &bounds); });
-      size_t faults = 0;
-      call([&] { return tact_world_check_surface(world_, body, 1e-6, nullptr, nullptr, 0, &faults); });
-      tell(faults);
-      tell(coordinates);
-      tell({&margin, 1});
-      tell(bounds.lower);
-      tell(bounds.upper);
+      look_at_kind(body);
+      look_at_distances(body);
+      look_at_contact_rules(body);
+      look_at_mesh(body);
     }
     bool excluded = false;
     call([&] { return tact_world_excluded(world_, bodies_[1], bodies_[2], &excluded); });
+  }
+  void look_at_kind(tact_body body) {
+    bool flag = false, is_plane = false;
+    const char* name = nullptr;
+    tact_surface surface{};
+    tact_motion motion{};
+    uint64_t id = 0;
+    tact_plane plane;
+    call([&] { return tact_world_contains(world_, body, &flag); });
+    call([&] { return tact_world_name(world_, body, &name); });
+    call([&] { return tact_world_surface(world_, body, &surface); });
+    call([&] { return tact_world_motion(world_, body, &motion); });
+    call([&] { return tact_world_external_id(world_, body, &id); });
+    call([&] { return tact_world_key(world_, body, &id); });
+    call([&] { return tact_world_plane(world_, body, &is_plane, &plane); });
+    tell(std::uint64_t{is_plane});
+  }
+  void look_at_distances(tact_body body) {
+    double margin = 0.0, rest_offset = 0.0;
+    tact_feature_settings features = TACT_FEATURE_SETTINGS_INIT;
+    tact_bounds bounds{};
+    call([&] { return tact_world_margin(world_, body, &margin); });
+    tell({&margin, 1});
+    call([&] { return tact_world_rest_offset(world_, body, &rest_offset); });
+    tell({&rest_offset, 1});
+    call([&] { return tact_world_feature_settings(world_, body, &features); });
+    tell({features.rest_offsets, features.rest_offset_count});
+    call([&] { return tact_world_bounds(world_, body, &bounds); });
+    tell(bounds.lower);
+    tell(bounds.upper);
+  }
+  void look_at_contact_rules(tact_body body) {
+    bool flag = false;
+    uint32_t bits = 0;
+    call([&] { return tact_world_group(world_, body, &bits); });
+    call([&] { return tact_world_layer(world_, body, &bits); });
+    call([&] { return tact_world_mask(world_, body, &bits); });
+    const int vertex[3] = {-1, -1, -1};
+    tact_feature_labels labels{};
+    call([&] { return tact_world_labels(world_, body, vertex, &labels); });
+    tell(std::uint64_t{labels.facet});
+    call([&] { return tact_world_self_contact(world_, body, &flag); });
+    tact_self_contact_filter filter = TACT_SELF_CONTACT_FILTER_INIT;
+    call([&] { return tact_world_self_contact_filter(world_, body, &filter); });
+    tell({&filter.rest_distance, 1});
+    const tact_label_pair pair = {bodies_[0], 1, bodies_[1], 2, TACT_LABEL_FACET};
+    call([&] { return tact_world_excluded_labels(world_, &pair, &flag); });
+  }
+  void look_at_mesh(tact_body body) {
+    size_t vertices = 0, facets = 0, edges = 1, points = 1, faults = 0;
+    int unused = 0;
+    call([&] { return tact_world_vertex_count(world_, body, &vertices); });
+    call([&] { return tact_world_facet_count(world_, body, &facets); });
+    std::vector<double> coordinates(3 * vertices);
+    std::vector<int> corners(3 * facets);
+    call([&] { return tact_world_copy_positions(world_, body, coordinates.data(), coordinates.size()); });
+    call([&] { return tact_world_copy_facets(world_, body, corners.data(), corners.size()); });
+    call([&] { return tact_world_edge_count(world_, body, &edges); });
+    call([&] { return tact_world_point_count(world_, body, &points); });
+    call([&] { return tact_world_copy_edges(world_, body, &unused, 0); });
+    call([&] { return tact_world_copy_points(world_, body, &unused, 0); });
+    call([&] { return tact_world_check_surface(world_, body, 1e-6, nullptr, nullptr, 0, &faults); });
+    tell(edges + points);
+    tell(faults);
+    tell(coordinates);
   }
 
   void ask() {

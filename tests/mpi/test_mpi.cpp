@@ -149,82 +149,117 @@ void cut(Both& both, int i, int step, int across, int& more) {
 }
 
 // Bodies come, go and change hands; margins, layers, groups and exclusions change.
-void run_churn(const std::string& name, Size size, const BeforeDetect& before) {
-  mpi::Settings settings = all_outputs();
-  settings.world.outputs.curves = settings.world.outputs.within_reach = true;
-  Both both(name, settings);
-  const int across = across_of(size.bodies);
-  There there;
-  const auto add = [&](int i, int step) {
-    const BodyDefinition definition = some_body(i, step, across);
-    both.add(definition, drawn(3, static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(step), count_of_ranks()));
-    there[i] = 0;
-  };
-  for (int i = 0; i < size.bodies; i += 2) add(i, 0);
-  both.add_plane({.offset = 0.3, .key = 2, .margin = 0.05});
-  for (int step = 0; step < size.steps; ++step) {
-    const auto t = static_cast<std::uint64_t>(step);
-    for (std::uint64_t k = 0; k < 3; ++k) {
-      const int i = drawn(10 + k, t, 0, size.bodies);
-      if (there.erase(i) > 0) both.remove(key_of(i));
-      const int new_one = drawn(20 + k, t, 0, size.bodies);
-      if (!there.contains(new_one)) add(new_one, step);
-    }
-    for (auto& [i, more] : there) {
-      const bool has_facets = i % 8 != 3 && i % 8 != 5;
-      if (has_facets && drawn(28, static_cast<std::uint64_t>(i), t, 12) == 0) cut(both, i, step, across, more);
-    }
-    for (const Key key : both.many.bodies()) {
-      if (drawn(7, key, t, 5) == 0) both.many.set_owner(key, drawn(8, key, t, count_of_ranks()));
-    }
-    if (step % 3 == 1) both.many.move_bodies();
-    if (step % 10 == 9) both.many.rebalance();
-    for (const auto& [i, more] : there) {
-      const auto n = static_cast<std::uint64_t>(i);
-      both.on_owner(key_of(i), [&, i = i, more = more](auto& world, auto body) {
-        const Eigen::Matrix3Xd positions = positions_of(blob_at(i, step, across), more);
-        if (drawn(11, n, t, 4) != 0) world.set_positions(body, positions);
-        if (drawn(12, n, t, 9) == 0) {
-          world.set_feature_settings(body, {});  // vertices that came by a cut have the margin that it had then
-          world.set_margin(body, 0.02 * drawn(13, n, t, 4));
-        }
-        if (drawn(14, n, t, 20) == 0) world.set_group(body, static_cast<std::uint32_t>(drawn(15, n, t, 3)));
-        if (drawn(16, n, t, 20) == 0) world.set_layers(body, 1u << drawn(17, n, t, 2), 3u);
-        if (drawn(18, n, t, 20) == 0) world.set_self_contact(body, drawn(19, n, t, 2) == 0);
-        if (drawn(24, n, t, 12) == 0)
-          world.set_rest_offset(body, drawn(25, n, t, 2) == 0 ? std::optional(0.0) : std::nullopt);
-        if (drawn(26, n, t, 20) == 0) {
-          std::vector<std::uint32_t> masks(static_cast<std::size_t>(positions.cols()), ~0u);
-          for (std::size_t v = 0; v < masks.size(); v += 3) masks[v] = static_cast<std::uint32_t>(drawn(27, n, t, 4));
-          const std::vector<double> margins(drawn(29, n, t, 2) == 0 ? masks.size() : 0, 0.0);  // whatever the body's is
-          world.set_feature_settings(body, {.vertex_labels = masks, .vertex_masks = masks, .margins = margins});
-          world.set_self_contact_filter(body, {.rings = drawn(30, n, t, 3)});
-        }
-        if (drawn(31, n, t, 8) == 0) {
-          const auto label = static_cast<std::uint32_t>(drawn(32, n, t, 3));
-          const std::vector<std::uint32_t> labels(static_cast<std::size_t>(positions.cols()), label);
-          world.set_feature_settings(body, {.vertex_labels = labels});
-        }
-      });
-      const int other = drawn(21, n, t, size.bodies);
-      if (drawn(22, n, t, 6) == 0 && other != i && there.contains(other))
-        both.exclude(key_of(i), key_of(other), drawn(23, n, t, 3) != 0);
-      if (drawn(33, n, t, 3) == 0 && there.contains(other)) {
-        const mpi::LabelPair labels{.key_a = key_of(i),
-                                    .label_a = 1u + static_cast<std::uint32_t>(drawn(34, n, t, 2)),
-                                    .key_b = key_of(other),
-                                    .label_b = 1u + static_cast<std::uint32_t>(drawn(35, n, t, 2)),
-                                    .kind = LabelKind::vertex};
-        both.exclude(labels, drawn(36, n, t, 4) != 0, drawn(37, n, t, 2) != 0);
-      }
-    }
-    before(both, step, there);
-    if (step % 4 == 1) both.detect_motion(Impacts::all);
-    both.detect();
+class Churn {
+ public:
+  Churn(const std::string& name, Size size) : size_(size), across_(across_of(size.bodies)), both_(name, settings()) {
+    for (int i = 0; i < size.bodies; i += 2) add(i, 0);
+    both_.add_plane({.offset = 0.3, .key = 2, .margin = 0.05});
   }
-}
+
+  void run(const BeforeDetect& before) {
+    for (int step = 0; step < size_.steps; ++step) {
+      let_come_and_go(step);
+      hand_over(step);
+      for (const auto& [i, more] : there_) {
+        both_.on_owner(key_of(i), [&, i = i, more = more](auto& world, auto body) {
+          const Eigen::Matrix3Xd positions = positions_of(blob_at(i, step, across_), more);
+          if (drawn_for(11, i, step, 4) != 0) world.set_positions(body, positions);
+          change_settings(world, body, i, step);
+          change_features(world, body, static_cast<std::size_t>(positions.cols()), i, step);
+        });
+        change_exclusions(i, step);
+      }
+      before(both_, step, there_);
+      if (step % 4 == 1) both_.detect_motion(Impacts::all);
+      both_.detect();
+    }
+  }
+
+ private:
+  static mpi::Settings settings() {
+    mpi::Settings settings = all_outputs();
+    settings.world.outputs.curves = settings.world.outputs.within_reach = true;
+    return settings;
+  }
+  // One of `count` numbers, for a body in a step.
+  static int drawn_for(std::uint64_t seed, int i, int step, int count) {
+    return drawn(seed, static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(step), count);
+  }
+
+  void add(int i, int step) {
+    both_.add(some_body(i, step, across_), drawn_for(3, i, step, count_of_ranks()));
+    there_[i] = 0;
+  }
+  void let_come_and_go(int step) {
+    for (std::uint64_t k = 0; k < 3; ++k) {
+      const int old_one = drawn_for(10 + k, step, 0, size_.bodies), new_one = drawn_for(20 + k, step, 0, size_.bodies);
+      if (there_.erase(old_one) > 0) both_.remove(key_of(old_one));
+      if (!there_.contains(new_one)) add(new_one, step);
+    }
+    for (auto& [i, more] : there_) {
+      const bool has_facets = i % 8 != 3 && i % 8 != 5;
+      if (has_facets && drawn_for(28, i, step, 12) == 0) cut(both_, i, step, across_, more);
+    }
+  }
+  void hand_over(int step) {
+    const auto t = static_cast<std::uint64_t>(step);
+    for (const Key key : both_.many.bodies()) {
+      if (drawn(7, key, t, 5) == 0) both_.many.set_owner(key, drawn(8, key, t, count_of_ranks()));
+    }
+    if (step % 3 == 1) both_.many.move_bodies();
+    if (step % 10 == 9) both_.many.rebalance();
+  }
+
+  static void change_settings(auto& world, auto body, int i, int step) {
+    if (drawn_for(12, i, step, 9) == 0) {
+      world.set_feature_settings(body, {});  // vertices that came by a cut have the margin that it had then
+      world.set_margin(body, 0.02 * drawn_for(13, i, step, 4));
+    }
+    if (drawn_for(14, i, step, 20) == 0) world.set_group(body, static_cast<std::uint32_t>(drawn_for(15, i, step, 3)));
+    if (drawn_for(16, i, step, 20) == 0) world.set_layers(body, 1u << drawn_for(17, i, step, 2), 3u);
+    if (drawn_for(18, i, step, 20) == 0) world.set_self_contact(body, drawn_for(19, i, step, 2) == 0);
+    if (drawn_for(24, i, step, 12) == 0)
+      world.set_rest_offset(body, drawn_for(25, i, step, 2) == 0 ? std::optional(0.0) : std::nullopt);
+  }
+  static void change_features(auto& world, auto body, std::size_t vertices, int i, int step) {
+    if (drawn_for(26, i, step, 20) == 0) {
+      std::vector<std::uint32_t> masks(vertices, ~0u);
+      for (std::size_t v = 0; v < masks.size(); v += 3)
+        masks[v] = static_cast<std::uint32_t>(drawn_for(27, i, step, 4));
+      const std::vector<double> margins(drawn_for(29, i, step, 2) == 0 ? masks.size() : 0,
+                                        0.0);  // whatever the body's is
+      world.set_feature_settings(body, {.vertex_labels = masks, .vertex_masks = masks, .margins = margins});
+      world.set_self_contact_filter(body, {.rings = drawn_for(30, i, step, 3)});
+    }
+    if (drawn_for(31, i, step, 8) == 0) {
+      const std::vector<std::uint32_t> labels(vertices, static_cast<std::uint32_t>(drawn_for(32, i, step, 3)));
+      world.set_feature_settings(body, {.vertex_labels = labels});
+    }
+  }
+  void change_exclusions(int i, int step) {
+    const int other = drawn_for(21, i, step, size_.bodies);
+    if (drawn_for(22, i, step, 6) == 0 && other != i && there_.contains(other))
+      both_.exclude(key_of(i), key_of(other), drawn_for(23, i, step, 3) != 0);
+    if (drawn_for(33, i, step, 3) == 0 && there_.contains(other)) {
+      const auto label = [&](std::uint64_t seed) {
+        return 1u + static_cast<std::uint32_t>(drawn_for(seed, i, step, 2));
+      };
+      const mpi::LabelPair labels{.key_a = key_of(i),
+                                  .label_a = label(34),
+                                  .key_b = key_of(other),
+                                  .label_b = label(35),
+                                  .kind = LabelKind::vertex};
+      both_.exclude(labels, drawn_for(36, i, step, 4) != 0, drawn_for(37, i, step, 2) != 0);
+    }
+  }
+
+  Size size_;
+  int across_;
+  Both both_;
+  There there_;
+};
 void churn(Size size) {
-  run_churn("churn", size, [](Both&, int, There&) {});
+  Churn("churn", size).run([](Both&, int, There&) {});
 }
 
 // A body is removed that touches itself; another in its slot, which does too, leaves in the same step.
@@ -261,7 +296,7 @@ void restored(Size size) {
   There saved;
   std::map<Key, std::byte> states;
   const auto byte_of = [](Key key) { return static_cast<std::byte>(key % 251); };
-  run_churn("restored", size, [&](Both& both, int step, There& there) {
+  Churn("restored", size).run([&](Both& both, int step, There& there) {
     if (step == 0)
       both.many.set_body_state(
           {.pack = [&](Key key) { return std::vector<std::byte>{byte_of(key)}; },
