@@ -109,7 +109,7 @@ struct Contact {
   /// Returns the points, if Outputs::points is set; sorted by kind, then by features.
   std::span<const ContactPoint> points() const { return points_; }
   /// Returns every vertex and facet, and every two edges, nearer than the sum of the margins, if Outputs::within_reach
-  /// is set; sorted by kind, then by features.
+  /// is set; sorted by kind, then by features. Planes have none: they have points.
   std::span<const ReachPair> within_reach() const { return within_reach_; }
   /// Returns the patches, if Outputs::patches is set; sorted by first facet pair, then by first point.
   std::span<const Patch> patches() const { return patches_; }

@@ -248,7 +248,7 @@ TACT_C_API tact_error tact_contact_points(tact_world world, size_t index, const 
  * pair. */
 TACT_C_API tact_error tact_contact_curve(tact_world world, size_t index, size_t curve, tact_curve* result);
 /** Gives every vertex and facet, and every two edges, nearer than the sum of the margins, if
- * tact_settings.within_reach is set; sorted by kind, then by features. */
+ * tact_settings.within_reach is set; sorted by kind, then by features. Planes have none: they have points. */
 TACT_C_API tact_error tact_contact_within_reach(tact_world world, size_t index, const tact_reach_pair** pairs,
                                                 size_t* count);
 /** Gives a number made from every bit of the contact, its facet pairs, points, pairs within reach and patches, but for
