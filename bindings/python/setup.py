@@ -27,6 +27,7 @@ class CMakeBuild(build_ext):
         options = [
             "-DCMAKE_BUILD_TYPE=Release",
             "-DTACT_BUILD_PYTHON=ON",
+            "-DTACT_UNITY_BUILD=ON",
             f"-DPython3_EXECUTABLE={sys.executable}",
         ]
         options += shlex.split(os.environ.get("TACT_CMAKE_OPTIONS", ""))
