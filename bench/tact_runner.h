@@ -25,9 +25,6 @@ class TactRunner {
   // Detects without setting anything.
   const Report& step_idle() { return world_.detect(); }
 
-  // The bodies' numbers in the workload are those of the report.
-  const std::vector<BodyId>& ids() const { return ids_; }
-
  private:
   const Workload& workload_;
   World world_;

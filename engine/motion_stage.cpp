@@ -299,7 +299,7 @@ void MotionStage::leave_out_clusters(Passing& passing, const Call& call, std::si
   const std::size_t by_boxes = memory.timed.size();
   const narrowphase::MeshWay way_a = a.seen_from({}), way_b = b.seen_from({});
   memory.passing.leave_out_separated({.mesh = a.mesh, .way = &way_a}, {.mesh = b.mesh, .way = &way_b}, reach,
-                                     call.bodies.tuning(), memory.timed, 0, [](const TimedPair& t) { return t.pair; });
+                                     call.bodies.tuning(), memory.timed, [](const TimedPair& t) { return t.pair; });
   if (!call.wants_all())
     std::ranges::sort(memory.timed, {}, [](const TimedPair& t) { return std::tuple(t.earliest, t.pair.a, t.pair.b); });
   passing.has_planes = memory.timed.size() < by_boxes;

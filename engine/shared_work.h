@@ -17,7 +17,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/tuning.h"
-#include "narrowphase/triangles/confirm_input.h"
+#include "narrowphase/pairs/cluster_pair.h"
 
 namespace tact {
 

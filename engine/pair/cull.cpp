@@ -84,7 +84,7 @@ void cull(const PairTask& pair, const Slab& slab, EmbreeDevice& device) {
     return PairedClusters{{.mesh = &mesh}, kept.count(), kept.cluster.data()};
   };
   work.separation.leave_out(paired(a, culled.kept_a), paired(b, culled.kept_b), 0.0, pair.tuning, culled.cluster_pairs,
-                            0, std::identity{});
+                            std::identity{});
   work.counts.tree_pairs += work.join.uses_trees() ? 1 : 0;
   count_clusters(culled, work.counts);
   prepare_surfaces(pair, near);

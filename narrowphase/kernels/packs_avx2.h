@@ -108,11 +108,6 @@ inline FloatMask both(FloatMask a, FloatMask b) { return _mm256_and_ps(a, b); }
 inline FloatMask either(FloatMask a, FloatMask b) { return _mm256_or_ps(a, b); }
 inline FloatMask differ(FloatMask a, FloatMask b) { return _mm256_xor_ps(a, b); }
 inline unsigned bits(FloatMask a) { return static_cast<unsigned>(_mm256_movemask_ps(a)); }
-inline FloatMask float_mask_of(unsigned bits) {
-  const __m256i lane = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
-  const __m256i some = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(bits)), lane);
-  return _mm256_castsi256_ps(_mm256_cmpeq_epi32(some, lane));
-}
 inline FloatPack select(FloatMask mask, FloatPack yes, FloatPack no) { return _mm256_blendv_ps(no, yes, mask); }
 
 inline void store_floats(float* p, FloatPack a) { _mm256_storeu_ps(p, a); }

@@ -115,7 +115,6 @@ inline FloatMask both(FloatMask a, FloatMask b) { return _kand_mask16(a, b); }
 inline FloatMask either(FloatMask a, FloatMask b) { return _kor_mask16(a, b); }
 inline FloatMask differ(FloatMask a, FloatMask b) { return _kxor_mask16(a, b); }
 inline unsigned bits(FloatMask a) { return a; }
-inline FloatMask float_mask_of(unsigned bits) { return static_cast<FloatMask>(bits); }
 inline FloatPack select(FloatMask mask, FloatPack yes, FloatPack no) { return _mm512_mask_blend_ps(mask, no, yes); }
 
 inline void store_floats(float* p, FloatPack a) { _mm512_storeu_ps(p, a); }

@@ -81,7 +81,6 @@ inline FloatPack fused_sum(FloatPack a, FloatPack b, FloatPack c) { return base:
 inline FloatPack abs(FloatPack a) { return __builtin_fabsf(a); }
 inline FloatMask less_equal(FloatPack a, FloatPack b) { return a <= b; }
 inline FloatMask less(FloatPack a, FloatPack b) { return a < b; }
-inline FloatMask float_mask_of(unsigned bits) { return bits != 0; }
 inline FloatPack select(FloatMask mask, FloatPack yes, FloatPack no) { return mask ? yes : no; }
 
 inline void store_floats(float* p, FloatPack a) { *p = a; }

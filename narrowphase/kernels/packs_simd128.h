@@ -99,7 +99,6 @@ inline FloatMask both(FloatMask a, FloatMask b) { return a & b; }
 inline FloatMask either(FloatMask a, FloatMask b) { return a | b; }
 inline FloatMask differ(FloatMask a, FloatMask b) { return a ^ b; }
 inline unsigned bits(FloatMask a) { return base::bits_of(a); }
-inline FloatMask float_mask_of(unsigned bits) { return (FloatMask{1, 2, 4, 8} & static_cast<std::int32_t>(bits)) != 0; }
 inline FloatPack select(FloatMask mask, FloatPack yes, FloatPack no) { return base::choose(mask, yes, no); }
 
 inline void store_floats(float* p, FloatPack a) { base::store_as(p, a); }

@@ -1,4 +1,4 @@
-// The one generator of what is near: the pairs of clusters of two meshes, or of one with itself, whose boxes overlap.
+// What is near: the pairs of clusters of two meshes, or of one with itself, whose boxes overlap.
 // Boxes are those of the clusters where they are, grown by a reach, or swept along the ways of their vertices. Of each
 // mesh the clusters near the other are kept first (kept_clusters.h), then joined (cluster_join.h). Of what is still,
 // planes leave out more where boxes tell little (cluster_separation.h).
@@ -26,16 +26,16 @@ class ClusterPairFinder {
                                     const base::Tuning& tuning, EmbreeDevice& device) {
     pairs_.clear();
     find_range(0, begin(a, b, reach, tuning, device), memory_, pairs_);
-    if (a.way == nullptr) leave_out_separated(a, b, reach, tuning, pairs_, 0, std::identity{});
+    if (a.way == nullptr) leave_out_separated(a, b, reach, tuning, pairs_, std::identity{});
     return pairs_;
   }
 
-  /// After find(), of those pairs that are left: leaves out items from the first-th on whose clusters a plane separates
-  /// all the way.
+  /// After find(), of those pairs that are left: leaves out items whose clusters a plane separates all the
+  /// way.
   template <class Item, class PairOf>
   void leave_out_separated(const ClusterBoxes& a, const ClusterBoxes& b, double reach, const base::Tuning& tuning,
-                           std::vector<Item>& items, std::size_t first, const PairOf& pair_of) {
-    separation_.leave_out({a, kept_a_.count()}, {b, kept_b_.count()}, reach, tuning, items, first, pair_of);
+                           std::vector<Item>& items, const PairOf& pair_of) {
+    separation_.leave_out({a, kept_a_.count()}, {b, kept_b_.count()}, reach, tuning, items, pair_of);
   }
 
   /// The same in ranges. begin() keeps what is near, after which `a` and `b` are not needed, and returns the number of

@@ -35,20 +35,18 @@ struct PairedClusters {
 /// One for each thread; its memory is used again.
 class ClusterSeparation {
  public:
-  /// Leaves out items from the first-th on: those whose cluster pairs certainly hold no two features, without a common
-  /// vertex, that come within `reach`. All pairs of the two are given, those of one mesh with the smaller cluster
-  /// first.
+  /// Leaves out items whose cluster pairs certainly hold no two features, without a common vertex, that come within
+  /// `reach`. All pairs of the two are given, those of one mesh with the smaller cluster first.
   template <class Item, class PairOf>
   void leave_out(const PairedClusters& a, const PairedClusters& b, double reach, const base::Tuning& tuning,
-                 std::vector<Item>& items, std::size_t first, const PairOf& pair_of) {
-    const std::size_t count = items.size() - first;
+                 std::vector<Item>& items, const PairOf& pair_of) {
+    const std::size_t count = items.size();
     if (!begin(a, b, reach, tuning, count)) return;
     const auto apart = [&](const Item& item) { return are_apart(pair_of(item)); };
     const std::size_t sample = tuning.worth_planes == 0 ? 0 : std::clamp<std::size_t>(count / 32, 4, 32);
     std::size_t separated = 0;
-    for (std::size_t k = 0; k < sample; ++k) separated += apart(items[first + (2 * k + 1) * count / (2 * sample)]);
-    if (2 * separated >= sample)
-      items.erase(std::remove_if(items.begin() + static_cast<std::ptrdiff_t>(first), items.end(), apart), items.end());
+    for (std::size_t k = 0; k < sample; ++k) separated += apart(items[(2 * k + 1) * count / (2 * sample)]);
+    if (2 * separated >= sample) std::erase_if(items, apart);
     places_.forget();
   }
 

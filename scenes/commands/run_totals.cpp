@@ -9,7 +9,7 @@
 
 #include "scenes/commands/counted.h"
 #include "scenes/commands/skipped_work.h"
-#include "scenes/commands/stats_sum.h"
+#include "scenes/dynamics/stats_sum.h"
 
 namespace tact::scenes {
 namespace {

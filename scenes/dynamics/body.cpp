@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "engine/base/box.h"
@@ -25,16 +26,17 @@ int opposite_corner(const Eigen::Matrix3Xi& facets, int facet, const Edge& edge)
   return edge.from;
 }
 
-std::vector<Spring> edge_springs(const Mesh& mesh, const Topology& topology, double stiffness) {
+std::vector<Spring> edge_springs(const Mesh& mesh, std::span<const Edge> edges, double stiffness) {
   std::vector<Spring> springs;
-  for (const Edge& edge : topology.edges()) {
+  for (const Edge& edge : edges) {
     springs.push_back({edge.from, edge.to, distance(mesh, edge.from, edge.to), 1.0 / stiffness});
   }
   return springs;
 }
 
-void add_bending_springs(const Mesh& mesh, const Topology& topology, double stiffness, std::vector<Spring>& springs) {
-  for (const Edge& edge : topology.edges()) {
+void add_bending_springs(const Mesh& mesh, std::span<const Edge> edges, double stiffness,
+                         std::vector<Spring>& springs) {
+  for (const Edge& edge : edges) {
     if (edge.other_facet < 0) continue;
     const int a = opposite_corner(mesh.facets, edge.facet, edge);
     const int b = opposite_corner(mesh.facets, edge.other_facet, edge);
@@ -95,7 +97,7 @@ Body make_body(std::string name, const Mesh& mesh) {
   Body body;
   body.name = std::move(name);
   body.facets = mesh.facets;
-  body.topology = Topology(mesh.facets, static_cast<int>(mesh.positions.size()));
+  body.surface_edges = edges_of(mesh.facets);
   body.positions = mesh.positions;
   body.velocities.assign(mesh.positions.size(), {});
   body.inverse_masses.assign(mesh.positions.size(), 0.0);
@@ -118,8 +120,8 @@ Body make_cloth(std::string name, const Mesh& mesh, const ClothMaterial& materia
   }
   std::transform(masses.begin(), masses.end(), body.inverse_masses.begin(),
                  [](double mass) { return mass > 0.0 ? 1.0 / mass : 0.0; });
-  std::vector<Spring> springs = edge_springs(mesh, body.topology, material.stretch_stiffness);
-  add_bending_springs(mesh, body.topology, material.bend_stiffness, springs);
+  std::vector<Spring> springs = edge_springs(mesh, body.surface_edges, material.stretch_stiffness);
+  add_bending_springs(mesh, body.surface_edges, material.bend_stiffness, springs);
   body.springs = Springs(springs, static_cast<int>(mesh.positions.size()));
   body.friction = material.friction;
   body.drag = material.drag;
@@ -132,8 +134,8 @@ Body make_soft(std::string name, const Mesh& mesh, const SoftMaterial& material)
   body.dynamic = true;
   const double mass = material.density * enclosed_volume(mesh.positions, mesh.facets);
   std::fill(body.inverse_masses.begin(), body.inverse_masses.end(), static_cast<double>(mesh.positions.size()) / mass);
-  std::vector<Spring> springs = edge_springs(mesh, body.topology, material.surface_stiffness);
-  add_bending_springs(mesh, body.topology, material.bend_stiffness, springs);
+  std::vector<Spring> springs = edge_springs(mesh, body.surface_edges, material.surface_stiffness);
+  add_bending_springs(mesh, body.surface_edges, material.bend_stiffness, springs);
   add_struts(mesh, material.inner_stiffness, springs);
   body.springs = Springs(springs, static_cast<int>(mesh.positions.size()));
   body.volume.emplace(mesh, material.bulk_modulus);

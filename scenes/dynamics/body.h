@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "scenes/dynamics/edges.h"
 #include "scenes/dynamics/mesh.h"
 #include "scenes/dynamics/rigid_motion.h"
 #include "scenes/dynamics/shape.h"
 #include "scenes/dynamics/springs.h"
-#include "scenes/dynamics/topology.h"
 
 namespace tact::scenes {
 
@@ -71,7 +71,7 @@ struct Body {
   std::optional<Plane> plane;    // a floor, which has no vertices and is fixed
   // Once a script has changed the facets: of each vertex the one that it was at the last detection, or -1. Empty else.
   std::vector<int> vertex_map;
-  Topology topology;
+  std::vector<Edge> surface_edges;  // those of the facets
   Surface surface = Surface::closed;
   Motion motion = Motion::deformable;
 

@@ -34,8 +34,6 @@ class ContactSolver {
   void retreat(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>& before, const ContactSettings& settings,
                int threads);
 
-  std::int64_t point_count() const { return static_cast<std::int64_t>(points_.size()); }
-
  private:
   // A place on a surface.
   struct Place {

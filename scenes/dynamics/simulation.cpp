@@ -8,6 +8,7 @@
 #include "engine/base/timer.h"
 #include "scenes/dynamics/damping.h"
 #include "scenes/dynamics/free_way.h"
+#include "scenes/dynamics/stats_sum.h"
 #include "scenes/dynamics/substep.h"
 
 namespace tact::scenes {
@@ -18,17 +19,6 @@ constexpr std::size_t kLargeBody = 8192;  // vertices from which a body is worth
 Settings with_points(Settings settings) {
   settings.outputs.points = true;
   return settings;
-}
-
-void add(const StepStats& detection, StepStats& sum) {
-  std::vector<std::int64_t> counts;
-  std::vector<double> times;
-  for_each_count(detection, [&](const char*, const char*, std::int64_t count) { counts.push_back(count); });
-  for_each_time(detection, [&](const char*, const char*, double time) { times.push_back(time); });
-  auto count = counts.begin();
-  auto time = times.begin();
-  for_each_count(sum, [&](const char*, const char*, std::int64_t& all) { all += *count++; });
-  for_each_time(sum, [&](const char*, const char*, double& all) { all += *time++; });
 }
 
 }  // namespace
@@ -226,7 +216,7 @@ void Simulation::detect() {
   times_.recording_ms += recording_ms;
   times_.engine_ms += note("engine", timer) - recording_ms;
   ++state_.detections;
-  add(report_->stats(), stats_);
+  add_to(stats_, report_->stats());
   if (!dynamics_.continuous) solver_.take(*report_, bodies_, threads_);
   if (stops_impacts()) {
     detected_.resize(bodies_.size());

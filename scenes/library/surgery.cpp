@@ -55,7 +55,7 @@ struct Cut {
   void renew(Body& body) const {
     Body cut = make_cloth(body.name, rest, p.membrane);
     body.facets = rest.facets;
-    body.topology = std::move(cut.topology);
+    body.surface_edges = std::move(cut.surface_edges);
     body.springs = std::move(cut.springs);
     body.inverse_masses = std::move(cut.inverse_masses);
     for (int v = 0; v < static_cast<int>(origin.size()); ++v) {
@@ -86,7 +86,7 @@ struct Cut {
 
   // Whether an edge at the tip of the cut is stretched too far.
   bool is_torn(const Body& body) const {
-    for (const Edge& edge : body.topology.edges()) {
+    for (const Edge& edge : body.surface_edges) {
       if (edge.from != tip() && edge.to != tip()) continue;
       const auto length = [&](const std::vector<Vec3>& at) { return norm(at[edge.to] - at[edge.from]); };
       if (length(body.positions) > p.tears * length(rest.positions)) return true;

@@ -12,7 +12,7 @@
 #include "scenes/commands/json_text.h"
 #include "scenes/commands/report_json.h"
 #include "scenes/commands/skipped_work.h"
-#include "scenes/commands/stats_sum.h"
+#include "scenes/dynamics/stats_sum.h"
 #include "scenes/files/file_error.h"
 #include "scenes/view/page_section.h"
 #include "scenes/view/page_template.h"

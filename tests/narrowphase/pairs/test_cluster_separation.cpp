@@ -27,7 +27,7 @@ std::vector<ClusterPair> left_of(const ClusterBoxes& a, const ClusterBoxes& b, d
                                  const base::Tuning& tuning) {
   std::vector<ClusterPair> pairs = all_pairs_of(*a.mesh, *b.mesh);
   ClusterSeparation separation;
-  separation.leave_out({a, a.mesh->cluster_count()}, {b, b.mesh->cluster_count()}, reach, tuning, pairs, 0,
+  separation.leave_out({a, a.mesh->cluster_count()}, {b, b.mesh->cluster_count()}, reach, tuning, pairs,
                        std::identity{});
   return pairs;
 }

@@ -15,8 +15,6 @@ struct BodyPairKind {
   const char* name;
   // The first and the second body for a seed; they overlap more often than not.
   std::vector<Mesh> (*make)(std::uint64_t seed);
-  // Is each body flat or solid, of sensible shape? Others are noise.
-  bool tame;
 };
 
 inline void PrintTo(const BodyPairKind& kind, std::ostream* out) { *out << kind.name; }
