@@ -79,7 +79,7 @@ void leave_out(Record& record, BodyId id_a, BodyId id_b, const Bodies& bodies, i
   leave_out(record.within_reach, threads, [&](const ReachPair& pair) { return is_left_out(pair, pair.distance); });
 }
 
-// Calls leave_out(i, threads): a thread for each of many, all for each of few.
+// Calls leave_out_of(i, threads): a thread for each of many, all for each of few.
 template <class LeaveOut>
 void for_each_pair(std::size_t count, std::size_t grain, int threads, const LeaveOut& leave_out_of) {
   if (count >= static_cast<std::size_t>(threads)) {

@@ -1,4 +1,4 @@
-// Where one way to an answer becomes faster than another: every threshold of the engine, in one place. None changes
+// Where one way to an answer becomes faster than another: the thresholds of the engine that tests force. None changes
 // which facets meet; a direction may differ in its last bits where it starts from something else.
 #pragma once
 

@@ -211,7 +211,8 @@ struct Kernels {
                                const std::uint64_t* left_out, std::uint64_t* near);
 };
 
-// The best for this machine, or the one that the environment variable TACT_INSTRUCTION_SET names: scalar, avx2, avx512.
+// The best for this machine, or the one that the environment variable TACT_INSTRUCTION_SET names: scalar, simd128,
+// avx2, avx512.
 const Kernels& kernels();
 
 // For tests: each instruction set, or null where the machine or the build does not have it.

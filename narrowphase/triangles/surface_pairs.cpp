@@ -38,7 +38,7 @@ constexpr double kShorter = 1.0 - 0x1p-18;
 // Floats: of the cluster of A, which comes first, and those that may be read beyond the last.
 constexpr std::size_t kFloatsOfA = 3 * LocalVertices::kMost, kReadBeyond = 64;
 
-constexpr int kWorthAPlane = 6;  // see block_pair.cpp
+constexpr int kWorthAPlane = 6;  // as Tuning::worth_a_plane
 
 std::uint64_t lowest_bits(int count) { return ~std::uint64_t{0} >> (64 - count); }
 

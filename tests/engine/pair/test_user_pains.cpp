@@ -3,9 +3,9 @@
 // test_world.cpp, 11 and 37 in test_allocation.cpp, 18 in test_facet_pairs.cpp, 35 in test_determinism.cpp, 45 in the
 // tests of the triangle tests, 46 in tests/threads, 47 in test_layers.cpp.
 //
-// Left out are rows that no behaviour of detection answers: 17 and 31 ask for margins, which are the solver's; 34 is of
-// a library for GPUs; 38 and 43 are times, which tact-bench measures; 42 is continuous detection; 44 is Embree's
-// interface.
+// Left out are rows that no behaviour of detection answers: 34 is of a library for GPUs; 38 and 43 are
+// times, which tact-bench measures; 44 is Embree's interface. Rows 17 and 31, margins, stand in tests/engine/points, and
+// 42, motion, in tests/engine/motion.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Small scenes whose whole answer is known as numbers: on every machine, in every build, for any number of threads.
 // Bodies come from generators that use +, -, *, / and the square root alone: bodies.h, body_pairs.h and random.h. Sines
-// and the like of the C library are in folds.h, known_shapes.h, motion_queries.h and hostile_hulls.h.
+// and the like of the C library are in folds.h, fans.h, known_shapes.h and hostile_hulls.h.
 #pragma once
 
 #include <cstdint>
