@@ -4,8 +4,8 @@
 // tests of the triangle tests, 46 in tests/threads, 47 in test_layers.cpp.
 //
 // Left out are rows that no behaviour of detection answers: 34 is of a library for GPUs; 38 and 43 are
-// times, which tact-bench measures; 44 is Embree's interface. Rows 17 and 31, margins, stand in tests/engine/points, and
-// 42, motion, in tests/engine/motion.
+// times, which tact-bench measures; 44 is Embree's interface. Rows 17 and 31, margins, stand in tests/engine/points,
+// and 42, motion, in tests/engine/motion.
 #include <gtest/gtest.h>
 
 #include <algorithm>
