@@ -411,7 +411,7 @@ class Contact:
         """the points, if Settings.points is set; sorted by kind, then by features"""
     @property
     def within_reach(self) -> ReachPairs:
-        """every vertex and facet, and every two edges, nearer than the sum of the margins, if Settings.within_reach is set; sorted by kind, then by features; planes have none, but points"""
+        """every vertex and facet, and every two edges, nearer than the sum of the margins, if Settings.within_reach is set; sorted by kind, then by features"""
     @property
     def touching(self) -> bool:
         """whether facets meet, or a point's gap is below the sum of the rest offsets"""
