@@ -2,7 +2,8 @@
 # Runs tests under the address and undefined-behaviour sanitizers, then under the thread sanitizer.
 # usage: scripts/sanitize.sh quick|all
 # quick: the ground floor, and wrong use of the interface for C, which must never crash; no threads. all: everything, about
-# an hour on 2 cores.
+# an hour on 2 cores. The presets optimize little and note lines alone: with -O2 -g the largest units took GCC a quarter
+# of an hour each.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 case ${1:-} in
