@@ -12,7 +12,7 @@ struct Command {
   const char* description = "";  // a line
   // Prints its tables and writes files to options.out. The exit status: 0 done, 1 an answer was wrong.
   int (*run)(const BenchOptions& options) = nullptr;
-  bool has_workloads = false;  // BenchOptions::only chooses among them
+  bool has_workloads = false;  // BenchOptions::plays() chooses among them
 };
 
 // In the order in which they are listed.

@@ -48,7 +48,8 @@ int main(int argc, char** argv) {
     sub.add_option("--threads", options.threads, "The most threads to measure with; 0: as many as OpenMP would use")
         ->check(CLI::Range(0, 1024));
     sub.add_option("--out", options.out, "Folder for tables and plots");
-    if (command.has_workloads) sub.add_option("--only", options.only, "Only workloads whose name holds this text");
+    if (command.has_workloads)
+      sub.add_option("--only", options.only, "Only workloads whose name holds this text; may be given again");
     sub.callback([&chosen, &command] { chosen = &command; });
   }
   try {

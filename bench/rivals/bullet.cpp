@@ -5,8 +5,6 @@
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 #include <BulletCollision/Gimpact/btGImpactBvh.h>
 
-#include <utility>
-
 #include "bench/meeting_lists.h"
 #include "bench/rivals/rival.h"
 #include "engine/base/parallel.h"

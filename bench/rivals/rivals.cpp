@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
-#include <optional>
-#include <stdexcept>
 
 #include "bench/answer_line.h"
 #include "bench/measure.h"
@@ -246,7 +244,7 @@ int run_rivals(const BenchOptions& options) {
   bool agree = true;
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const NamedWorkload& named : rival_workloads(options.quick ? Size::small : Size::full)) {
-    if (named.name.find(options.only) == std::string::npos) continue;
+    if (!options.plays(named.name)) continue;
     const Workload workload = named.make();
     const std::vector<Meetings> answers = solve(workload);
     hash = extended_hash(hash, answers);
@@ -256,7 +254,7 @@ int run_rivals(const BenchOptions& options) {
     agree = agree && all_agree(row);
     rows.push_back(std::move(row));
   }
-  if (rows.empty()) throw std::runtime_error("no workload's name holds '" + options.only + "'");
+  if (rows.empty()) options.reject_only();
   print_summary(rows, threads, options.out);
   print_answer_line(hash);
   if (!options.out.empty()) plot_factors(rows, threads, options.out);

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "bench/measure.h"

@@ -151,12 +151,12 @@ std::vector<Leaps> leaps_of(bool quick) {
           carry("a pile of blobs of 320, turned by 0.5", blobs, 3, {0, 0, 0}, kHalfTurn)};
 }
 
-Table measure_leaps(const std::vector<Leaps>& all, const std::string& only, int threads, double budget_ms,
+Table measure_leaps(const std::vector<Leaps>& all, const BenchOptions& options, int threads, double budget_ms,
                     tests::AnswerHash& answers) {
   Table table({"workload", "facets", "pairs of bodies", "candidates", "left by the filter %", "impacts", "1 thread ms",
                fmt::format("{} threads ms", threads), "first only ms", "ns a candidate", "line search of 4"});
   for (const Leaps& leaps : all) {
-    if (leaps.name.find(only) == std::string::npos) continue;
+    if (!options.plays(leaps.name)) continue;
     const Workload workload = leaps.make();
     MotionRunner one(workload, 1), several(workload, threads);
     one.go(0, leaps.frames);
@@ -281,7 +281,7 @@ int run_motion(const BenchOptions& options) {
   measure_queries();
   const bool quick = options.quick;
   tests::AnswerHash answers;
-  const Table leaps = measure_leaps(leaps_of(quick), options.only, threads, budget_ms, answers);
+  const Table leaps = measure_leaps(leaps_of(quick), options, threads, budget_ms, answers);
   leaps.print();
   if (!options.only.empty()) {
     print_answer_line(answers);

@@ -210,7 +210,7 @@ int run_points(const BenchOptions& options) {
   bool any = false;
   tests::AnswerHash answers;
   for (const NamedWorkload& named : rival_workloads(options.quick ? Size::small : Size::full)) {
-    if (named.name.find(options.only) == std::string::npos) continue;
+    if (!options.plays(named.name)) continue;
     any = true;
     fmt::print(stderr, "{}\n", named.name);
     const PointTimes m = measure(named.make(), named.name, options.quick, answers);
@@ -219,7 +219,7 @@ int run_points(const BenchOptions& options) {
                three_digits(m.cgal), three_digits(m.fastest() / m.with), three_digits(m.signs),
                three_digits(m.signs / m.with)});
   }
-  if (!any) throw std::runtime_error("no workload's name holds '" + options.only + "'");
+  if (!any) options.reject_only();
   table.print();
   print_answer_line(answers);
   if (!options.out.empty()) table.write_csv(options.out / "points.csv");

@@ -184,7 +184,7 @@ int run_queries(const BenchOptions& options) {
       QueryContest contest(workload.bodies[0], t, options.quick ? 5.0 : 200.0);
       contest.add_row(QueryKind::refit_alone, 0, table, answers);
       for (const QueryKind kind : {QueryKind::rays, QueryKind::points}) {
-        if (std::string(kQueryNames[static_cast<std::size_t>(kind)]).find(options.only) == std::string::npos) continue;
+        if (!options.plays(kQueryNames[static_cast<std::size_t>(kind)])) continue;
         for (const int count : counts) contest.add_row(kind, count, table, answers);
       }
     }

@@ -187,7 +187,7 @@ int run_rigid(const BenchOptions& options) {
                "poses / computed vertices"});
   tests::AnswerHash answers;
   for (const Scene& scene : scenes) {
-    if (scene.name.find(options.only) == std::string::npos) continue;
+    if (!options.plays(scene.name)) continue;
     for (int t = 1; t <= threads; t *= 2) add_row(scene, t, budget_ms, table, answers);
   }
   table.print();

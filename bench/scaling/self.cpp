@@ -123,7 +123,7 @@ int run_self(const BenchOptions& options) {
   bool any = false;
   tests::AnswerHash answers;
   for (const SelfRow& row : self_rows(options.quick)) {
-    if (row.name.find(options.only) == std::string::npos) continue;
+    if (!options.plays(row.name)) continue;
     const Workload workload = row.make();
     if (workload.bodies.empty()) continue;
     any = true;
@@ -138,7 +138,7 @@ int run_self(const BenchOptions& options) {
                three_digits(m.ms[kCgal]), three_digits(std::min(m.ms[kEmbree], m.ms[kCgal]) / m.ms[kTact]),
                m.plain_is_right ? three_digits(m.ms[kEmbreePlain] / m.ms[kTact]) : "wrong"});
   }
-  if (!any) throw std::runtime_error("no workload's name holds '" + options.only + "'");
+  if (!any) options.reject_only();
   table.print();
   if (facets.size() > 1)
     fmt::print("time of the cloths grows with facets to the power of {:.2f}\n", fitted_exponent(facets, times));

@@ -1,7 +1,6 @@
 // Surfaces that lie on each other: cloth on bodies, see workloads.h.
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "bench/random.h"

@@ -1,5 +1,4 @@
 // What a solver asks in small substeps: cloth on a ball, and many sheets in a slow wave, see workloads.h.
-#include <algorithm>
 #include <utility>
 #include <vector>
 

@@ -2,8 +2,6 @@
 // drapes do. See workloads.h.
 #include <Eigen/Geometry>
 #include <cmath>
-#include <utility>
-#include <vector>
 
 #include "bench/random.h"
 #include "bench/workloads/shapes.h"

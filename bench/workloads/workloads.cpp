@@ -1,8 +1,6 @@
 #include "bench/workloads/workloads.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "bench/workloads/shapes.h"
