@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <utility>
 
+#include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 
 namespace tact::broadphase {
@@ -27,10 +26,7 @@ struct Range {
 
 // The i-th of a fixed sequence of positions below `count` that shows no pattern (SplitMix64).
 std::size_t scattered(std::size_t i, std::size_t count) {
-  std::uint64_t z = (i + 1) * 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return static_cast<std::size_t>((z ^ (z >> 31)) % count);
+  return static_cast<std::size_t>(base::mixed((i + 1) * base::kGoldenStep) % count);
 }
 
 // Between quantiles: one box far away must not decide on which axis the others are cut.

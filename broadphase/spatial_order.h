@@ -1,10 +1,8 @@
 // Sorts boxes so that neighbours in space are neighbours in the order: a k-d tree, whose leaves are whole blocks.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "broadphase/block.h"
 

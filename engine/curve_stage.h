@@ -3,7 +3,6 @@
 
 #include <tact/settings.h>
 
-#include <memory>
 #include <span>
 #include <vector>
 

@@ -30,7 +30,6 @@ constexpr double kLevel = 0x1p-30;
 // far.
 constexpr double kAcross = 1e-6;
 
-double largest(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 double size_of(Vec3 v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 // 1 if the normal of a facet is `towards`, a unit vector; -1 if it is the opposite.
@@ -102,7 +101,7 @@ class JoinedMinima {
   double near(BodyId body, const std::array<int, 3>& vertices) {
     double size = 0.0;
     for (std::size_t k = 0; k < 3 && vertices[k] >= 0; ++k)
-      size = std::max(size, largest(meshes_.positions(body).vertex(vertices[k])));
+      size = std::max(size, largest_coordinate(meshes_.positions(body).vertex(vertices[k])));
     return joined_.within + kRounding * size;
   }
 
@@ -135,7 +134,8 @@ class JoinedMinima {
       });
     const Vec3 nearest = narrowphase::place_of(corners, narrowphase::weights_about(side.other_place, corners));
     const double same =
-        2.0 * (side.near + kRounding * std::max({largest(corners[0]), largest(corners[1]), largest(corners[2])}));
+        2.0 * (side.near + kRounding * std::max({largest_coordinate(corners[0]), largest_coordinate(corners[1]),
+                                                 largest_coordinate(corners[2])}));
     return norm(nearest - side.place) > same && norm(nearest - side.other_place) < norm(side.place - side.other_place);
   }
 

@@ -1,6 +1,5 @@
 #include <tact/kept_report.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>

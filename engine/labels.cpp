@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/bodies/checks.h"
+
 namespace tact {
 
 namespace {

@@ -4,7 +4,6 @@
 #include <tact/world.h>
 
 #include <array>
-#include <cstddef>
 #include <unordered_map>
 #include <vector>
 

@@ -3,8 +3,6 @@
 
 #include <tact/settings.h>
 
-#include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 

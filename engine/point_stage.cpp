@@ -346,9 +346,7 @@ void PointStage::find_wanted(Bodies& bodies, const Settings& settings, narrowpha
   large_.search(settings.threads, search_range);
   large_.gather(settings.threads, [&](Large::Shared& shared, int thread, int threads) {
     Work& work = work_[thread];
-    work.found.clear();
-    for (const Large::Range& range : large_.ranges(shared))
-      work.found.insert(work.found.end(), range.found.begin(), range.found.end());
+    large_.collect(shared, work.found);
     finish(*shared.item, step, threads, work);
   });
 }

@@ -80,9 +80,7 @@ void ReachStage::find(std::span<const MovedPair> moved, std::span<SelfRecord* co
   large_.search(settings.threads, search_range);
   large_.gather(settings.threads, [&](Large::Shared& shared, int thread, int threads) {
     Work& work = work_[thread];
-    work.found.clear();
-    for (const Large::Range& range : large_.ranges(shared))
-      work.found.insert(work.found.end(), range.found.begin(), range.found.end());
+    large_.collect(shared, work.found);
     publish(work.found, bodies, *shared.item->wanted, threads, work);
   });
 }

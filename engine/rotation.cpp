@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <string>
 
 #include "engine/base/floating_point_mode.h"
 #include "engine/base/text.h"

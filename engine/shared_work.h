@@ -139,6 +139,12 @@ class SharedWork {
         [&](std::size_t i, int thread, int threads_of_item) { gather(items_[i], thread, threads_of_item); });
   }
 
+  /// Replaces `found`, a container, by what was found in all ranges of an item, in their order.
+  void collect(const Shared& shared, Found& found) const {
+    found.clear();
+    for (const Range& range : ranges(shared)) found.insert(found.end(), range.found.begin(), range.found.end());
+  }
+
   /// What is shared out.
   auto items() const { return part(items_, 0, items_in_use_); }
   std::size_t range_count() const { return ranges_in_use_; }

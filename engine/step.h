@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "broadphase/sweep_and_prune.h"
+#include "engine/base/timer.h"
 #include "engine/bodies/bodies.h"
 #include "engine/bodies/plane_pairs.h"
 #include "engine/containment.h"

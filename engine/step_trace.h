@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/timer.h"
 #include "engine/pair/pair_table.h"
 #include "engine/pair_stage.h"
 

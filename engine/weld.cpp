@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/base/floating_point_mode.h"
+#include "engine/base/hash.h"
 #include "engine/bodies/checks.h"
 #include "engine/bodies/columns.h"
 #include "engine/first_at_position.h"
@@ -21,7 +22,7 @@ std::uint64_t hash_of(const double* position) {
   std::uint64_t hash = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const double x = position[axis] == 0.0 ? 0.0 : position[axis];
-    hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15u;
+    hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * base::kGoldenStep;
     hash ^= hash >> 32;
   }
   return hash;

@@ -1,7 +1,6 @@
 // Which bodies are near bodies of other ranks: boxes meet at the ranks that Zoltan names for them, whoever owns the
 // bodies, and the owner of a guest learns which ranks host it.
 #include <algorithm>
-#include <utility>
 
 #include "mpi/world_implementation.h"
 

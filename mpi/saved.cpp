@@ -2,7 +2,6 @@
 // as if all of them had moved, and what is kept of a pair waits for the next step.
 #include <algorithm>
 #include <cstring>
-#include <optional>
 #include <utility>
 
 #include "mpi/world_implementation.h"

@@ -4,10 +4,8 @@
 #include <tact/mpi/world.h>
 
 #include <cstdint>
-#include <exception>
 #include <map>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -51,4 +51,11 @@ inline Box extended(const Box& box, Vec3 p) { return merged(box, {p, p}); }
 
 inline bool contains(const Box& box, Vec3 p) { return overlaps(box, {p, p}); }
 
+/// How far what is in the box is from a point at most, along each axis.
+inline Vec3 farthest_from(Vec3 p, const Box& box) {
+  const Vec3 lower = box.lower - p, upper = box.upper - p;
+  return {std::max(std::abs(lower.x), std::abs(upper.x)), std::max(std::abs(lower.y), std::abs(upper.y)),
+          std::max(std::abs(lower.z), std::abs(upper.z))};
+}
+
 }  // namespace tact::base

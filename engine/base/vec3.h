@@ -2,6 +2,7 @@
 // inline functions are shared with the user's program, which may be compiled with FMA or with other alignments.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace tact::base {
@@ -26,6 +27,7 @@ inline double dot(Vec3 a, Vec3 b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; 
 inline Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 inline double norm_squared(Vec3 a) { return dot(a, a); }
 inline double norm(Vec3 a) { return std::sqrt(norm_squared(a)); }
+inline double largest_coordinate(Vec3 a) { return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}); }
 // a / |a|; a must not be zero, and |a|² must neither overflow nor vanish.
 inline Vec3 normalized(Vec3 a) {
   const double length = norm(a);

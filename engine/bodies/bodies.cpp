@@ -7,6 +7,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 #include "engine/base/text.h"
+#include "engine/bodies/checks.h"
 #include "engine/bodies/encloses.h"
 #include "engine/bodies/given_mesh.h"
 #include "engine/bodies/plane_pairs.h"

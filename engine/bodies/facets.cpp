@@ -1,10 +1,9 @@
 // A body gets other vertices and facets: what is made of them, before anything changes, and how they take their place.
 #include <algorithm>
-#include <limits>
-#include <optional>
 #include <utility>
 
 #include "engine/bodies/bodies.h"
+#include "engine/bodies/checks.h"
 #include "engine/bodies/encloses.h"
 #include "engine/bodies/given_mesh.h"
 #include "narrowphase/mesh/cluster_quality.h"

@@ -7,6 +7,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/text.h"
 #include "engine/bodies/bodies.h"
+#include "engine/bodies/checks.h"
 #include "engine/check_coordinate.h"
 #include "narrowphase/mesh/prefetch.h"
 #include "narrowphase/mesh/refit.h"
@@ -67,7 +68,7 @@ void check_vertices(const ClusteredMesh& mesh, const Pose& pose, const std::stri
   Vec3 stands;
   for (int v = 0; v < mesh.vertex_count(); ++v) {
     const Vec3 p = placed(pose, Vec3{rest.x[v], rest.y[v], rest.z[v]});
-    const bool good = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kLargestCoordinate;
+    const bool good = base::largest_coordinate(p) <= kLargestCoordinate;
     if (good || mesh.source_vertex(v) > first) continue;
     first = mesh.source_vertex(v);
     stands = p;

@@ -5,6 +5,8 @@
 
 #include "engine/base/parallel.h"
 #include "engine/bodies/bodies.h"
+#include "engine/bodies/checks.h"
+#include "engine/bodies/columns.h"
 #include "narrowphase/mesh/cluster_quality.h"
 #include "narrowphase/mesh/prefetch.h"
 
@@ -19,7 +21,6 @@ constexpr std::size_t kPublishedAtATime = 1024;  // bodies, at some nanoseconds 
 constexpr std::size_t kRefittedBytes = sizeof(narrowphase::ClusteredMesh);  // of a Body, its first: what stage 1 reads
 // A body of so many facets is refitted by all threads: one among many, or one of a few that would not keep them busy.
 constexpr int kLargeBody = 32768, kLargeOfFew = 8192;  // facets
-constexpr std::size_t kFewPerThread = 4;               // as Tuning::few_items_per_thread
 
 }  // namespace
 
@@ -123,7 +124,7 @@ void Bodies::set_positions(BodyId id, const Positions& positions, int threads) {
 // Large bodies come last, one after the other, each on all threads.
 void Bodies::refresh_all(std::size_t count, int threads) {
   std::atomic<bool> any_large{false};
-  const bool few = count < kFewPerThread * static_cast<std::size_t>(threads);
+  const bool few = count < tuning_->few_items_per_thread * static_cast<std::size_t>(threads);
   const auto large = [&](std::size_t i) {
     return threads > 1 && updates_[i].body->mesh.facet_count() >= (few ? kLargeOfFew : kLargeBody);
   };

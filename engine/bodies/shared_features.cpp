@@ -1,7 +1,6 @@
 // The features of bodies. They depend on facets alone: bodies that are added from one mesh have one set of them.
 #include <algorithm>
 #include <iterator>
-#include <map>
 #include <memory>
 #include <vector>
 

@@ -1,6 +1,5 @@
 #include "engine/pair/confirm.h"
 
-#include <algorithm>
 #include <chrono>
 #include <utility>
 

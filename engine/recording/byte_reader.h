@@ -1,8 +1,6 @@
 // Little-endian numbers out of bytes.
 #pragma once
 
-#include <array>
-#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <string>

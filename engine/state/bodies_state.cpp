@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
-#include <tuple>
 #include <utility>
 
+#include "engine/bodies/checks.h"
 #include "engine/state/archives.h"
 #include "narrowphase/mesh/source_mesh.h"
 

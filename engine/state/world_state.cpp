@@ -1,6 +1,5 @@
 #include "engine/state/world_state.h"
 
-#include <array>
 #include <cstring>
 #include <string>
 #include <string_view>

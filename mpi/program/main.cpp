@@ -13,7 +13,6 @@
 #include <string>
 
 #include "mpi/program/pile_command.h"
-#include "scenes/commands/standard_error.h"
 #include "scenes/commands/usage_error.h"
 #include "scenes/files/file_error.h"
 

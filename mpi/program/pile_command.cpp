@@ -20,7 +20,6 @@
 #include "scenes/commands/common_options.h"
 #include "scenes/commands/json_text.h"
 #include "scenes/commands/usage_error.h"
-#include "scenes/files/file_error.h"
 #include "scenes/files/output_file.h"
 
 namespace tact::mpi::program {

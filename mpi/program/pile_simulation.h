@@ -8,7 +8,6 @@
 #include <limits>
 #include <map>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "mpi/program/rank_contacts.h"

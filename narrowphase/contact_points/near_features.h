@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "engine/base/lowest_bits.h"
 #include "narrowphase/contact_points/open_features.h"
 
 namespace tact::narrowphase {
@@ -16,7 +17,7 @@ struct NearFacets {
 
 inline NearFacets near_facets(const OpenFeatures& one, const CellBox& other) {
   NearFacets near;
-  near.facets = kernels().near_facets(one.facets.cells, all_of(one.facets.count), other);
+  near.facets = kernels().near_facets(one.facets.cells, base::lowest_bits(one.facets.count), other);
   if (near.facets != 0) near.cells = kernels().cells_of(one.facets.cells, near.facets);
   return near;
 }
@@ -55,11 +56,11 @@ struct LeftOut {
 /// Of edges of one cluster, opened twice: for each of `few` those of `many` that share a vertex with it, and those that
 /// come before it, or after it: each pair is looked at once. Edges of a block ascend.
 inline void leave_out_edges(const FeatureBlock& few, const FeatureBlock& many, bool few_are_first, LeftOut& left_out) {
-  const FeaturesAtVertices at(many, 2, all_of(many.count));
+  const FeaturesAtVertices at(many, 2, base::lowest_bits(many.count));
   for (int i = 0, k = 0; i < few.count; ++i) {
     const int last = few.feature[i] - (few_are_first ? 0 : 1);
     while (k < many.count && many.feature[k] <= last) ++k;
-    const std::uint64_t before = all_of(k);
+    const std::uint64_t before = base::lowest_bits(k);
     left_out.of[i] = at[few.corner[0][i]] | at[few.corner[1][i]] | (few_are_first ? before : ~before);
   }
 }
@@ -71,9 +72,10 @@ void for_near_edges(const OpenFeatures& a, const NearFacets& near_a, const OpenF
                     bool of_one_cluster, const Between& between) {
   std::uint64_t some_b[OpenFeatures::kMostBlocks];
   for (int k = 0; k < b.edge_blocks; ++k)
-    some_b[k] = kernels().near_facets(b.edges[k].cells, all_of(b.edges[k].count), near_a.cells);
+    some_b[k] = kernels().near_facets(b.edges[k].cells, base::lowest_bits(b.edges[k].count), near_a.cells);
   for (int i = 0; i < a.edge_blocks; ++i) {
-    const std::uint64_t some_a = kernels().near_facets(a.edges[i].cells, all_of(a.edges[i].count), near_b.cells);
+    const std::uint64_t some_a =
+        kernels().near_facets(a.edges[i].cells, base::lowest_bits(a.edges[i].count), near_b.cells);
     for (int k = 0; some_a != 0 && k < b.edge_blocks; ++k)
       between(EdgeBlocks{
           a.edges[i], b.edges[k], {a.points, a.edges[i], some_a}, {b.points, b.edges[k], some_b[k]}, of_one_cluster});

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "engine/base/lowest_bits.h"
+
 namespace tact::narrowphase {
 
 namespace {
@@ -70,7 +72,7 @@ bool OpenFeatures::append(const ScaledMesh& m, int which, const Box& box, const 
     return fits;
   }
   placed.place(of_facets, near, facets);
-  cells = kernels().cells_of(facets.cells, all_of(facets.count));
+  cells = kernels().cells_of(facets.cells, base::lowest_bits(facets.count));
   for (int first = 0; first < all.owned_count; first += FeatureBlock::kCapacity) {
     const int count = std::min(all.owned_count - first, FeatureBlock::kCapacity);
     placed.append({{kEachVertex.data() + first}, 1, count, all.owned_begin + first}, vertices, vertex_blocks);

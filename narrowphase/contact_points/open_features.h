@@ -7,7 +7,6 @@
 namespace tact::narrowphase {
 
 /// A bit for each of `count` features.
-inline std::uint64_t all_of(int count) { return count == 0 ? 0 : ~std::uint64_t{0} >> (64 - count); }
 
 struct OpenFeatures {
   static constexpr int kMostBlocks = 3;

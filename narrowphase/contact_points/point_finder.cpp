@@ -4,6 +4,7 @@
 #include <bit>
 #include <utility>
 
+#include "engine/base/lowest_bits.h"
 #include "narrowphase/contact_points/own_inside.h"
 #include "narrowphase/crossing/crossing_points.h"
 #include "narrowphase/distance/edge_edge.h"
@@ -76,7 +77,7 @@ void PointFinder::from_vertices(const OpenFeatures& one, const OpenFeatures& oth
   const std::uint64_t settled = same_ && one.cluster == other.cluster ? settled_facets(other, near.facets) : 0;
   for (int block = 0; block < one.vertex_blocks; ++block) {
     const FeatureBlock& vertices = one.vertices[block];
-    std::uint64_t some = kernels().near_facets(vertices.cells, all_of(vertices.count), near.cells);
+    std::uint64_t some = kernels().near_facets(vertices.cells, base::lowest_bits(vertices.count), near.cells);
     some = without(left_out, some, vertices);
     for_near_vertices({one.points, vertices, some}, {other.points, other.facets, near.facets}, settled, reach_,
                       [&](int i, int k, bool is_inside) {

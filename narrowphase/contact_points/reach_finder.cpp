@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/lowest_bits.h"
 #include "narrowphase/distance/closest_places.h"
 
 namespace tact::narrowphase {
@@ -40,7 +41,7 @@ void ReachFinder::from_vertices(const OpenFeatures& one, const OpenFeatures& oth
   const std::uint64_t own = same_ && one.cluster == other.cluster ? near.facets : 0;
   for (int block = 0; block < one.vertex_blocks; ++block) {
     const FeatureBlock& vertices = one.vertices[block];
-    const std::uint64_t some = kernels().near_facets(vertices.cells, all_of(vertices.count), near.cells);
+    const std::uint64_t some = kernels().near_facets(vertices.cells, base::lowest_bits(vertices.count), near.cells);
     for_near_vertices(
         {one.points, vertices, some}, {other.points, other.facets, near.facets}, own, reach_, [&](int i, int k, bool) {
           add_vertex(kind, vertices.feature[i], point_of(one.points, vertices.corner[0][i]), other.facets.feature[k]);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/lowest_bits.h"
+
 namespace tact::narrowphase {
 
 namespace {
@@ -35,8 +37,6 @@ HeightAxis height_axis(const Criteria& criteria) {
   const Vec3 n = criteria.outward, o = criteria.origin;
   return {n.x, n.y, n.z, o.x, o.y, o.z};
 }
-
-std::uint64_t lowest_bits(int count) { return count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1; }
 
 double squared(double x) { return x * x; }
 
@@ -110,7 +110,7 @@ bool append_facets(const ClusteredMesh& mesh, int cluster, const Criteria& crite
   const int before = kept.block.count;
   const Culled opened = kernels().open_cluster(facets, planes, &kept.block);
   if (before + opened.left > FacetBlock::kCapacity) return false;
-  const std::uint64_t appended = lowest_bits(before + opened.left) & ~lowest_bits(before);
+  const std::uint64_t appended = base::lowest_bits(before + opened.left) & ~base::lowest_bits(before);
   const std::uint64_t away = criteria.facing_away ? appended & kernels().facing_away(kept.block, planes.axis) : 0;
   const std::uint64_t left = appended & ~away;
   const std::uint64_t inside = criteria.zone ? inside_zone(kept.block, left, criteria) : left;

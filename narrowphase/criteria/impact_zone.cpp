@@ -125,11 +125,8 @@ void take_cluster(const ClusteredMesh& mesh, int cluster, const Projection& proj
 // No vertex is farther from the origin than this, nor is any projection of it, computed or not, but for one part in
 // 2^50.
 double reach(const Box& box, Vec3 origin) {
-  double sum = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    sum += std::max(std::abs(box.lower[axis] - origin[axis]), std::abs(box.upper[axis] - origin[axis]));
-  }
-  return sum;
+  const Vec3 far = farthest_from(origin, box);
+  return (far.x + far.y) + far.z;
 }
 
 }  // namespace

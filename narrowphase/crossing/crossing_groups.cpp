@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <numeric>
 
-namespace tact::narrowphase {
+#include "narrowphase/crossing/disjoint_sets.h"
 
-int CrossingGroups::root_of(int node) const {
-  while (parent_[node] != node) node = parent_[node];
-  return node;
-}
+namespace tact::narrowphase {
 
 int CrossingGroups::node_of(const CrossedSurface& surface, int patch) const {
   return patch < 0 || &surface == &crossing_->a() ? patch : crossing_->a().cut.patch_count() + patch;
@@ -20,22 +17,20 @@ void CrossingGroups::find(const Crossing& c) {
   std::iota(parent_.begin(), parent_.end(), 0);
   group_.assign(parent_.size(), -1);
   count_ = 0;
-  const auto root_of_corner = [&](const CrossedSurface& surface, int source_facet) {
-    return root_of(node_of(surface, surface.cut.patch_of(surface.source_corner(source_facet))));
+  const auto node_of_corner = [&](const CrossedSurface& surface, int source_facet) {
+    return node_of(surface, surface.cut.patch_of(surface.source_corner(source_facet)));
   };
+  for (const FacetPair& pair : c.facet_pairs)
+    join_sets(parent_, node_of_corner(c.a(), pair.a), node_of_corner(c.b(), pair.b));
   for (const FacetPair& pair : c.facet_pairs) {
-    const auto [first, second] = std::minmax({root_of_corner(c.a(), pair.a), root_of_corner(c.b(), pair.b)});
-    parent_[second] = first;
-  }
-  for (const FacetPair& pair : c.facet_pairs) {
-    int& group = group_[root_of_corner(c.a(), pair.a)];
+    int& group = group_[least_of_set(parent_, node_of_corner(c.a(), pair.a))];
     if (group < 0) group = count_++;
   }
 }
 
 int CrossingGroups::group_of_patch(const CrossedSurface& surface, int patch) const {
   const int node = node_of(surface, patch);
-  return node < 0 ? -1 : group_[root_of(node)];
+  return node < 0 ? -1 : group_[least_of_set(parent_, node)];
 }
 
 int CrossingGroups::group_of(const FeaturePoint& point) const {

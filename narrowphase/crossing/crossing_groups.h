@@ -30,11 +30,10 @@ class CrossingGroups {
 
  private:
   int node_of(const CrossedSurface& surface, int patch) const;
-  int root_of(int node) const;
 
   const Crossing* crossing_ = nullptr;
-  std::vector<int> parent_;  // of patches of a, then of b
-  std::vector<int> group_;   // of roots
+  std::vector<int> parent_;  // of patches of a, then of b: see join_sets()
+  std::vector<int> group_;   // of the least of each set
   int count_ = 0;
 };
 

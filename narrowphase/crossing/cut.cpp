@@ -1,8 +1,8 @@
 #include "narrowphase/crossing/cut.h"
 
 #include <algorithm>
-#include <utility>
 
+#include "narrowphase/crossing/disjoint_sets.h"
 #include "narrowphase/queries/mesh_queries.h"
 
 namespace tact::narrowphase {
@@ -33,7 +33,7 @@ void Cut::take_facet(int source_facet) {
       state_[source_vertex] = kRing;
       ring_.push_back(v);
     }
-    join(source_vertex, first);
+    join_sets(parent_, source_vertex, first);
   }
 }
 
@@ -62,21 +62,6 @@ void Cut::touch(int source_vertex) {
   parent_[source_vertex] = source_vertex;
 }
 
-int Cut::root_of(int source_vertex) const {
-  while (parent_[source_vertex] != source_vertex) source_vertex = parent_[source_vertex];
-  return source_vertex;
-}
-
-// The root of a set is its least number; the way there is halved.
-void Cut::join(int source_vertex, int other_source_vertex) {
-  const auto root = [&](int v) {
-    for (; parent_[v] != v; v = parent_[v]) parent_[v] = parent_[parent_[v]];
-    return v;
-  };
-  const auto [first, second] = std::minmax({root(source_vertex), root(other_source_vertex)});
-  parent_[second] = first;
-}
-
 void Cut::number_patches() {
   patch_count_ = 0;
   for (const int v : touched_) {
@@ -84,7 +69,9 @@ void Cut::number_patches() {
   }
 }
 
-int Cut::patch_of(int source_vertex) const { return parent_[source_vertex] < 0 ? -1 : patch_[root_of(source_vertex)]; }
+int Cut::patch_of(int source_vertex) const {
+  return parent_[source_vertex] < 0 ? -1 : patch_[least_of_set(parent_, source_vertex)];
+}
 
 void Cut::clear(const FeaturedMesh& own) {
   for (const int v : touched_) {
@@ -127,7 +114,7 @@ void Cut::add_past(int vertex, int from_source_vertex) {
   if (state_[source] == kUnknown) touch(source);
   state_[source] = kPast;
   past_.push_back(vertex);
-  if (from_source_vertex >= 0) join(source, from_source_vertex);
+  if (from_source_vertex >= 0) join_sets(parent_, source, from_source_vertex);
 }
 
 void Cut::flood_inside(int vertex) {

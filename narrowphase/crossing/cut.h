@@ -4,7 +4,6 @@
 
 #include <tact/facet_pair.h>
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -76,8 +75,6 @@ class Cut {
   void take_facet(int source_facet);
   State& state(int vertex) { return state_[own_.mesh->source_vertex(vertex)]; }
   void touch(int source_vertex);
-  void join(int source_vertex, int other_source_vertex);
-  int root_of(int source_vertex) const;
   void flood_inside(int vertex);
   void flood_outside(int vertex);
 
@@ -86,8 +83,8 @@ class Cut {
   std::vector<int> ring_;  // the corners of the facets that meet, by the mesh's numbers
   std::vector<int> past_, next_;
   std::vector<State> state_;    // by the caller's number, as the next two
-  std::vector<int> parent_;     // of sets that are patches; -1: in none
-  std::vector<int> patch_;      // of roots
+  std::vector<int> parent_;     // of sets that are patches, see join_sets(); -1: in none
+  std::vector<int> patch_;      // of the least of each set
   std::vector<int> first_hit_;  // of the edges that have the vertex as their first one; -1: none
   std::vector<int> touched_;    // vertices of which these are set
   int patch_count_ = 0;

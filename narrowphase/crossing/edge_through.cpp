@@ -1,7 +1,6 @@
 #include "narrowphase/crossing/edge_through.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "narrowphase/mesh/cluster_search.h"
 #include "narrowphase/pairs/box_reach.h"

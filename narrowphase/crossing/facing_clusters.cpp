@@ -1,7 +1,6 @@
 #include "narrowphase/crossing/facing_clusters.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tact::narrowphase {
 

@@ -85,8 +85,6 @@ double with_rounding(double distance) { return distance * (1.0 + 0x1p-40) + 0x1p
 // Neither normals in the unit of the mesh nor the square of its scale vanish or overflow then.
 bool is_near_one(double scale) { return scale > 0x1p-400 && scale < 0x1p400; }
 
-double largest_of(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
 struct SkipTurnedAway {
   const FacingClusters& clusters;
   const FacingNormals& facing;
@@ -224,7 +222,7 @@ std::optional<PlaceInFacet> ExitFinder::search(Vec3 v, double within, int hint, 
   // In the unit of the mesh, from which scaled lengths differ by a power of two.
   const Vec3 at = (1.0 / m.scale) * v;
   const double point[3] = {at.x, at.y, at.z};
-  const double rounding = 0x1p-50 * largest_of(v);
+  const double rounding = 0x1p-50 * largest_coordinate(v);
   const auto most = [&] {
     const double one = with_rounding(least) + rounding;
     return one * one;

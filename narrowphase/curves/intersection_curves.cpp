@@ -1,7 +1,6 @@
 #include "narrowphase/curves/intersection_curves.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "narrowphase/distance/segment_facet.h"
 

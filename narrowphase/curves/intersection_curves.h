@@ -14,7 +14,6 @@
 
 #include <array>
 #include <compare>
-#include <cstdint>
 #include <span>
 #include <vector>
 

@@ -1,8 +1,6 @@
 #include "narrowphase/depth/star_surface.h"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "narrowphase/numeric/double_double.h"
 

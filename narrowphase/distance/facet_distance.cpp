@@ -19,12 +19,10 @@ namespace {
 
 constexpr double kSmallNormal = 0x1p-400;  // the squares of shorter ones may vanish
 
-double largest_of(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
 // A vector times a power of two that scales it to a length near 1.
 struct ScaledVector {
   explicit ScaledVector(const DoubleDoubleVec3& v)
-      : scale(unit_scale(largest_of(heads(v)))), vector(scaled(v, scale)) {}
+      : scale(unit_scale(largest_coordinate(heads(v)))), vector(scaled(v, scale)) {}
   double scale;
   DoubleDoubleVec3 vector;
 };
@@ -46,7 +44,7 @@ class FineDistance {
  public:
   FineDistance(Vec3 point, const Triangle& t) : point_(point), t_(t) {
     double largest = 0.0;
-    for (std::size_t k = 0; k < 3; ++k) largest = std::max(largest, largest_of(t[k] - point));
+    for (std::size_t k = 0; k < 3; ++k) largest = std::max(largest, largest_coordinate(t[k] - point));
     scale_ = unit_scale(largest);
     for (std::size_t k = 0; k < 3; ++k) {
       to_[k] = scale_ * (t[k] - point);

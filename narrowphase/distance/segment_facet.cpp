@@ -107,10 +107,6 @@ CommonPlace place_in_plane(const Segment& segment, const Triangle& t, const Wide
   return first;
 }
 
-double largest_of(const DoubleDoubleVec3& v) {
-  return std::max({std::abs(v.x.head), std::abs(v.y.head), std::abs(v.z.head)});
-}
-
 // A segment and a triangle in double-doubles.
 struct FineCrossing {
   DoubleDoubleVec3 p, q;       // sides of the triangle, from its first corner
@@ -138,8 +134,8 @@ struct FineCrossing {
   // The same with its error. With the largest components of the four vectors the normal is off by 2^-100 of two,
   // products with it by 2^-97 of three of them.
   std::optional<Bounded> bounded_time() const {
-    const double sides = largest_of(p) * largest_of(q), size = sides * largest_of(from),
-                 size_of_way = sides * largest_of(way);
+    const double sides = largest_coordinate(heads(p)) * largest_coordinate(heads(q)),
+                 size = sides * largest_coordinate(heads(from)), size_of_way = sides * largest_coordinate(heads(way));
     if (!(sides > kVanishing && size > kVanishing && size_of_way > kVanishing)) return {};
     const DoubleDoubleVec3 normal = cross(p, q);
     const DoubleDouble height = dot(normal, from), slope = dot(normal, way), time = height / slope;
@@ -151,7 +147,7 @@ struct FineCrossing {
 
   // The weights of the triangle's corners at a time.
   std::array<double, 3> weights_at(DoubleDouble time) const {
-    const double scale = unit_scale(std::max(largest_of(p), largest_of(q)));
+    const double scale = unit_scale(std::max(largest_coordinate(heads(p)), largest_coordinate(heads(q))));
     return nearest_weights(scale * heads(time * way - from), {Vec3{}, scale * heads(p), scale * heads(q)});
   }
 };

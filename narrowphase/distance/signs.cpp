@@ -11,7 +11,7 @@ namespace {
 // p - q; times a power of two that brings its length near 1, where its products might vanish or overflow.
 DoubleDoubleVec3 moderate_difference(Vec3 p, Vec3 q) {
   const DoubleDoubleVec3 d = double_double_difference(p, q);
-  const double largest = std::max({std::abs(d.x.head), std::abs(d.y.head), std::abs(d.z.head)});
+  const double largest = largest_coordinate(heads(d));
   return largest > 0x1p-50 && largest < 0x1p50 ? d : scaled(d, unit_scale(largest));
 }
 

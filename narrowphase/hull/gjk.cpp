@@ -1,7 +1,6 @@
 #include "narrowphase/hull/gjk.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "narrowphase/distance/simplex.h"
 

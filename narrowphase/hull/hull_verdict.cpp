@@ -52,7 +52,7 @@ std::optional<NumberVector<SmallInteger>> small_in_units(const Vec3& p, int unit
   if (power < -1022 || power > 1023) return {};
   const double factor = std::bit_cast<double>(static_cast<std::uint64_t>(power + 1023) << 52);
   const Vec3 scaled = factor * p;
-  if (!(std::max({std::abs(scaled.x), std::abs(scaled.y), std::abs(scaled.z)}) < 1 << kSmallBits)) return {};
+  if (!(largest_coordinate(scaled) < 1 << kSmallBits)) return {};
   const auto integer = [](double x) { return SmallInteger{static_cast<std::int64_t>(x)}; };
   return NumberVector<SmallInteger>{integer(scaled.x), integer(scaled.y), integer(scaled.z)};
 }

@@ -23,20 +23,15 @@ constexpr double kUnderflow = 2.0 * std::numeric_limits<double>::denorm_min();
 
 constexpr double kSmallBodies = 0x1p900;  // scale from which on what vanishes counts
 
-double farthest(const Box& box, Vec3 origin, int axis) {
-  return std::max(std::abs(box.lower[axis] - origin[axis]), std::abs(box.upper[axis] - origin[axis]));
-}
-
 }  // namespace
 
 MinkowskiDifference::MinkowskiDifference(const ClusteredMesh& a, const ClusteredMesh& b, const base::Tuning& tuning)
     : a_(&a), b_(&b), by_clusters_(tuning.support_by_clusters) {
   const Box common = intersection(a.box(), b.box());
   origin_ = 0.5 * common.lower + 0.5 * common.upper;
-  Vec3 reach;
-  for (int axis = 0; axis < 3; ++axis)
-    reach[axis] = std::max(farthest(a.box(), origin_, axis), farthest(b.box(), origin_, axis));
-  const double largest = std::max({reach.x, reach.y, reach.z});
+  const Vec3 far_a = farthest_from(origin_, a.box()), far_b = farthest_from(origin_, b.box());
+  const Vec3 reach{std::max(far_a.x, far_b.x), std::max(far_a.y, far_b.y), std::max(far_a.z, far_b.z)};
+  const double largest = largest_coordinate(reach);
   scale_ = unit_scale(largest);
   size_ = norm(scale_ * reach);
   // size_, not the norm of what it was scaled from, whose squares vanish where bodies are tiny.

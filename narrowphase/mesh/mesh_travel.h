@@ -1,7 +1,6 @@
 // How far the vertices of each cluster of a mesh have gone, for those who know that two clusters were apart.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "narrowphase/mesh/mesh_topology.h"

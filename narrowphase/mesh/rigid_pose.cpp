@@ -19,9 +19,8 @@ constexpr double kLongestRow = 1.0 + 4e-9;
 constexpr double kUnderflow = 64.0 * std::numeric_limits<double>::denorm_min();
 
 double size_of(const Box& box) {
-  double size = 0.0;
-  for (int axis = 0; axis < 3; ++axis) size += std::max(std::abs(box.lower[axis]), std::abs(box.upper[axis]));
-  return size;
+  const base::Vec3 far = farthest_from({}, box);
+  return (far.x + far.y) + far.z;
 }
 
 }  // namespace

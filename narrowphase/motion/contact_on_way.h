@@ -6,7 +6,7 @@
 #pragma once
 
 #include "narrowphase/distance/surface_distance.h"
-#include "narrowphase/motion/impacts.h"
+#include "narrowphase/motion/moving_mesh.h"
 
 namespace tact::narrowphase {
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/base/lowest_bits.h"
 #include "engine/base/moving_box.h"
 #include "engine/base/parallel.h"
 #include "narrowphase/motion/contact_on_way.h"
@@ -419,7 +420,7 @@ class ImpactSearch {
     static_assert(MovingPolygons::kCapacity == 64);
     // Where reaches differ, that of a pair may lie between its distance and the largest reach.
     const PolygonReach reach{scaled_reach_, rules_.reach.is_uniform() ? kShareOfGap : 1.0, wider};
-    return ~std::uint64_t{0} >> (64 - waiting.polygons.count) & ~kernels().apart_throughout(waiting.polygons, reach);
+    return base::lowest_bits(waiting.polygons.count) & ~kernels().apart_throughout(waiting.polygons, reach);
   }
 
   void settle(FeatureCandidate& pair) {

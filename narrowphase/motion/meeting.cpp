@@ -34,8 +34,6 @@ constexpr double kShortestWay = 0x1p-900;  // of a corner: scaled lengths below 
 // Each halving of the step adds two at most.
 constexpr std::size_t kMostMoments = 96;
 
-double largest_size(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
 // Perpendicular to `side`: rounding has left a part along it, which counts where the distance is small.
 Vec3 perpendicular(Vec3 direction, Vec3 side) {
   direction = direction - dot(direction, side) / norm_squared(side) * side;
@@ -56,7 +54,7 @@ MovingPolygon scaled(MovingPolygon polygon, double by) {
   return polygon;
 }
 
-Vec3 unit(Vec3 v) { return largest_size(v) > 0x1p-500 ? normalized(v) : Vec3{}; }
+Vec3 unit(Vec3 v) { return largest_coordinate(v) > 0x1p-500 ? normalized(v) : Vec3{}; }
 
 }  // namespace
 
@@ -67,7 +65,7 @@ double MeetingSearch::take(const MovingPolygon& polygon) {
   count_ = polygon.count;
   double largest = 0.0;
   for (const auto& corners : polygon.corner) {
-    for (int i = 0; i < count_; ++i) largest = std::max(largest, largest_size(heads(corners[i])));
+    for (int i = 0; i < count_; ++i) largest = std::max(largest, largest_coordinate(heads(corners[i])));
   }
   constexpr double kShort = 0x1p-1000;
   if (largest > 0.0 && largest < kShort) return 1.0 / kShort;
@@ -364,7 +362,8 @@ MeetingSearch::Volume MeetingSearch::volume_on(const Vec3 (&from)[4], const Vec3
   const Vec3 f0 = from[count_ - 1] - from[0], f1 = to[count_ - 1] - to[0];
   const Vec3 n0 = cross(e0, f0), n1 = 0.5 * (cross(e0, f1) + cross(e1, f0)), n2 = cross(e1, f1);
   const Vec3 &d0 = from[0], &d1 = to[0];
-  const double e = std::max(largest_size(e0), largest_size(e1)), f = std::max(largest_size(f0), largest_size(f1));
+  const double e = std::max(largest_coordinate(e0), largest_coordinate(e1)),
+               f = std::max(largest_coordinate(f0), largest_coordinate(f1));
   const double area = reach_ > 0.0 ? std::sqrt(std::max({norm_squared(n0), norm_squared(n1), norm_squared(n2)})) : 0.0;
   return {{dot(d0, n0), (dot(d1, n0) + 2.0 * dot(d0, n1)) / 3.0, (2.0 * dot(d1, n1) + dot(d0, n2)) / 3.0, dot(d1, n2)},
           kVolumeRounding * (e + f + e * f) + reach_ * area};

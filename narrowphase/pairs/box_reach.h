@@ -8,12 +8,7 @@
 
 namespace tact::narrowphase {
 
-inline double largest_coordinate(const base::Box& box) {
-  double largest = 0.0;
-  for (int axis = 0; axis < 3; ++axis)
-    largest = std::max({largest, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
-  return largest;
-}
+inline double largest_coordinate(const base::Box& box) { return largest_coordinate(farthest_from({}, box)); }
 
 inline double longest_side(const base::Box& box) {
   const base::Vec3 size = box.upper - box.lower;

@@ -2,7 +2,6 @@
 // they are few; of more, runs of boxes first, by a loop or by Embree's trees.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -20,27 +19,10 @@ enum class BoxPairs { all, ascending };
 /// is used again.
 class ClusterJoin {
  public:
-  /// What a thread needs.
-  struct Memory {
-    std::vector<std::int32_t> near_runs;  // of B, near a run of A
-    BoxArrays near;                       // boxes of B near a run of A
-    std::vector<std::int32_t> place;      // of these in B
-    std::vector<std::int32_t> found, stack;
-  };
-
   /// Replaces `pairs` by all of them. Errors: those of ClusterForest::build().
   void run(const KeptClusters& a, const KeptClusters& b, BoxPairs wanted, const base::Tuning& tuning,
            EmbreeDevice& device, std::vector<ClusterPair>& pairs);
-
-  /// The same in ranges: looks at the two lists, which stay as they are and where they are until the last find().
-  /// Returns of how many runs of A the pairs are to be found. Errors: those of ClusterForest::build().
-  int begin(const KeptClusters& a, const KeptClusters& b, BoxPairs wanted, const base::Tuning& tuning,
-            EmbreeDevice& device);
-  /// Appends the pairs of the runs begin <= r < end, sorted: those of one range after the other are all, sorted. Many
-  /// threads may call it at once, each with a memory of its own.
-  void find(int begin, int end, Memory& memory, std::vector<ClusterPair>& pairs) const;
-
-  /// Whether trees are used for what begin() or run() was given last.
+  /// Whether trees were used.
   bool uses_trees() const { return way_ == Way::trees; }
 
   /// The same pairs with A and B exchanged, sorted again. There are `clusters` clusters of B.
@@ -49,18 +31,22 @@ class ClusterJoin {
  private:
   enum class Way { each, runs, trees };
 
-  void find_in_each(int begin, int end, Memory& memory, std::vector<ClusterPair>& pairs) const;
-  void find_in_run(int run, Memory& memory, std::vector<ClusterPair>& pairs) const;
-  void find_near_runs(const BoxBounds& run, int first, Memory& memory) const;
-  void find_near(const BoxBounds& run, Memory& memory) const;
+  void find_in_each(std::vector<ClusterPair>& pairs);
+  void make_runs(EmbreeDevice& device);
+  void find_in_run(int run, std::vector<ClusterPair>& pairs);
+  void find_near_runs(const BoxBounds& run, int first);
+  void find_near(const BoxBounds& run);
 
   const KeptClusters* a_ = nullptr;
   const KeptClusters* b_ = nullptr;
   BoxPairs wanted_ = BoxPairs::all;
   Way way_ = Way::each;
-  BoxArrays run_boxes_;   // of B
-  ClusterForest forest_;  // over these
-  Memory memory_;
+  BoxArrays run_boxes_;                  // of B
+  ClusterForest forest_;                 // over these
+  std::vector<std::int32_t> near_runs_;  // of B, near a run of A
+  BoxArrays near_;                       // boxes of B near a run of A
+  std::vector<std::int32_t> place_;      // of these in B
+  std::vector<std::int32_t> found_, stack_;
   std::vector<ClusterPair> exchanged_;
 };
 

@@ -15,7 +15,7 @@
 
 namespace tact::narrowphase {
 
-/// Its memory is used again: one for each thread, or one for each pair of meshes whose ranges threads share.
+/// Its memory is used again: one for each thread.
 class ClusterPairFinder {
  public:
   /// The pairs whose boxes come within `reach` (metres) of each other, but for those of two clusters that are still
@@ -24,8 +24,11 @@ class ClusterPairFinder {
   /// those of ClusterForest::build().
   std::span<const ClusterPair> find(const ClusterBoxes& a, const ClusterBoxes& b, double reach,
                                     const base::Tuning& tuning, EmbreeDevice& device) {
-    pairs_.clear();
-    find_range(0, begin(a, b, reach, tuning, device), memory_, pairs_);
+    const Box box_a = a.box(), box_b = b.box();
+    keep_clusters(a, box_reach(reach, std::max(largest_coordinate(box_a), largest_coordinate(box_b))), box_b, kept_a_);
+    keep_clusters(b, 0.0, kept_a_.bounds, kept_b_);
+    join_.run(kept_a_, kept_b_, a.mesh == b.mesh ? BoxPairs::ascending : BoxPairs::all, tuning, device, pairs_);
+    for (ClusterPair& pair : pairs_) pair = {kept_a_.cluster[pair.a], kept_b_.cluster[pair.b]};
     if (a.way == nullptr) leave_out_separated(a, b, reach, tuning, pairs_, std::identity{});
     return pairs_;
   }
@@ -38,29 +41,9 @@ class ClusterPairFinder {
     separation_.leave_out({a, kept_a_.count()}, {b, kept_b_.count()}, reach, tuning, items, pair_of);
   }
 
-  /// The same in ranges. begin() keeps what is near, after which `a` and `b` are not needed, and returns the number of
-  /// runs of which find_range() finds the pairs: each run is a few clusters of A. Not to be moved until the last range.
-  int begin(const ClusterBoxes& a, const ClusterBoxes& b, double reach, const base::Tuning& tuning,
-            EmbreeDevice& device) {
-    const Box box_a = a.box(), box_b = b.box();
-    keep_clusters(a, box_reach(reach, std::max(largest_coordinate(box_a), largest_coordinate(box_b))), box_b, kept_a_);
-    keep_clusters(b, 0.0, kept_a_.bounds, kept_b_);
-    return join_.begin(kept_a_, kept_b_, a.mesh == b.mesh ? BoxPairs::ascending : BoxPairs::all, tuning, device);
-  }
-  /// Appends the pairs of the runs begin <= r < end, sorted: those of one range after the other are those of find(),
-  /// before planes leave out any.
-  /// Many threads may call it at once, each with a memory of its own.
-  void find_range(int begin, int end, ClusterJoin::Memory& memory, std::vector<ClusterPair>& pairs) const {
-    const std::size_t before = pairs.size();
-    join_.find(begin, end, memory, pairs);
-    for (ClusterPair& pair : std::span(pairs).subspan(before))
-      pair = {kept_a_.cluster[pair.a], kept_b_.cluster[pair.b]};
-  }
-
  private:
   KeptClusters kept_a_, kept_b_;
   ClusterJoin join_;
-  ClusterJoin::Memory memory_;
   ClusterSeparation separation_;
   std::vector<ClusterPair> pairs_;
 };

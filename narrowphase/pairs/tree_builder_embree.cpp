@@ -1,6 +1,5 @@
 #include <tact/error.h>
 
-#include <algorithm>
 #include <array>
 #include <string>
 

@@ -108,11 +108,7 @@ bool goes_down(const HalfSpace& space, Vec3 from, Vec3 to) {
          (height_in_units(space, to, unit) - height_in_units(space, from, unit)).sign() < 0;
 }
 
-double height_error(const HalfSpace& space, const Box& box) {
-  Vec3 size;
-  for (int axis = 0; axis < 3; ++axis) size[axis] = std::max(std::abs(box.lower[axis]), std::abs(box.upper[axis]));
-  return error_of_size(space, size);
-}
+double height_error(const HalfSpace& space, const Box& box) { return error_of_size(space, farthest_from({}, box)); }
 
 Vec3 lowest_corner(const HalfSpace& space, const Box& box) {
   Vec3 corner;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <utility>
 
 #include "narrowphase/distance/facet_distance.h"
 #include "narrowphase/mesh/cluster_search.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <span>
 #include <vector>
@@ -26,11 +25,7 @@ constexpr double kSkin = 0x1p-42;      // by which boxes are taken as nearer: mo
 // Facets that are so near and may go on for no longer meet.
 constexpr double kShortest = 0x1p-24;
 
-double largest(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
-double largest_from(Vec3 center, const Box& box) {
-  return std::max(largest(box.lower - center), largest(box.upper - center));
-}
+double largest_from(Vec3 center, const Box& box) { return largest_coordinate(farthest_from(center, box)); }
 
 // How long no corner passes the plane at `height` along `normal`.
 double free_time(std::span<const TurningPoint> corners, Vec3 normal, double height, double time,
@@ -47,8 +42,8 @@ class SweepSearch {
  public:
   SweepSearch(const ClusteredMesh& a, const TurningWay& way, const ClusteredMesh& b, double latest)
       : a_(a), b_(b), way_(way) {
-    scale_ =
-        unit_scale(std::max({largest_from(way.center, a.box()), largest_from(way.center, b.box()), largest(way.way)}));
+    scale_ = unit_scale(
+        std::max({largest_from(way.center, a.box()), largest_from(way.center, b.box()), largest_coordinate(way.way)}));
     scaled_way_ = way.scaled(scale_);
     best_.value = latest;
   }
@@ -105,9 +100,9 @@ class SweepSearch {
 
   // From hit.time to where two facets meet; false if they do not, as early as is wanted.
   bool advance(const Triangle& t, const Triangle& u, SweptHit& hit) const {
-    double size = largest(way_.way);
+    double size = largest_coordinate(way_.way);
     for (std::size_t k = 0; k < 3; ++k)
-      size = std::max({size, largest(t[k] - way_.center), largest(u[k] - way_.center)});
+      size = std::max({size, largest_coordinate(t[k] - way_.center), largest_coordinate(u[k] - way_.center)});
     const double scale = unit_scale(size);
     const TurningWay way = way_.scaled(scale);
     const auto from_center = [&](Vec3 p) { return scale * (p - way_.center); };
@@ -143,7 +138,8 @@ class SweepSearch {
 double time_to_plane(const TurningWay& way, Vec3 begin, const HalfSpace& space, double latest) {
   if (height_over(space, begin) <= 0.0) return 0.0;
   const double above_center = height_over(space, way.center);
-  const double scale = unit_scale(std::max({largest(begin - way.center), largest(way.way), std::abs(above_center)}));
+  const double scale = unit_scale(
+      std::max({largest_coordinate(begin - way.center), largest_coordinate(way.way), std::abs(above_center)}));
   const TurningWay scaled = way.scaled(scale);
   const TurningPoint point(scaled, scale * (begin - way.center));
   for (double time = 0.0;;) {

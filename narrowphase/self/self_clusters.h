@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "narrowphase/contact_points/contact_points.h"
 #include "narrowphase/pairs/cluster_pairs.h"
 #include "narrowphase/self/smooth_patches.h"
 

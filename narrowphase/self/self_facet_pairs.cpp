@@ -4,6 +4,7 @@
 #include <bit>
 #include <utility>
 
+#include "engine/base/lowest_bits.h"
 #include "narrowphase/mesh/cluster_places.h"
 #include "narrowphase/pairs/open_clusters.h"
 #include "narrowphase/triangles/triangle_triangle.h"
@@ -23,7 +24,7 @@ struct OpenFacets {
   void open(const ClusteredMesh& mesh, int cluster, const Grid& grid) {
     source = mesh.facets_of(cluster);
     kernels().open_whole(source, grid, &block);
-    facets = ~std::uint64_t{0} >> (kClusterSize - block.count);
+    facets = base::lowest_bits(block.count);
     listed_ = knows_open_ = false;
   }
   // Which facets have each of the vertices, owned ones first. Listed at the first use: most clusters are paired

@@ -5,7 +5,6 @@
 // rounded so that it errs towards looking again. And whether to look at them as surfaces saves more than it costs.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>

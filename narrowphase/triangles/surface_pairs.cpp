@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <numeric>
 #include <utility>
 
+#include "engine/base/lowest_bits.h"
 #include "narrowphase/numeric/frame.h"
 #include "narrowphase/numeric/unit_scale.h"
 #include "narrowphase/pairs/box_reach.h"
@@ -37,10 +37,6 @@ constexpr double kShorter = 1.0 - 0x1p-18;
 
 // Floats: of the cluster of A, which comes first, and those that may be read beyond the last.
 constexpr std::size_t kFloatsOfA = 3 * LocalVertices::kMost, kReadBeyond = 64;
-
-constexpr int kWorthAPlane = 6;  // as Tuning::worth_a_plane
-
-std::uint64_t lowest_bits(int count) { return ~std::uint64_t{0} >> (64 - count); }
 
 int in_runs(int vertices) { return (vertices + LocalVertices::kRun - 1) / LocalVertices::kRun * LocalVertices::kRun; }
 
@@ -253,7 +249,7 @@ bool SurfacePairSearch::find_meeting(const ConfirmInput& input, const ClusterFac
   const std::uint64_t near_b =
       kernels().place_facets(vertices_of(b), facets_b, frame, kCellsOfA, &placed_b_.corners, &placed_b_.cells);
   if (near_b == 0) return false;
-  const std::uint64_t near_a = kernels().near_facets(placed_a_.cells, lowest_bits(facets_a.facet_count),
+  const std::uint64_t near_a = kernels().near_facets(placed_a_.cells, base::lowest_bits(facets_a.facet_count),
                                                      kernels().cells_of(placed_b_.cells, near_b));
   if (near_a == 0) return false;
   const bool few_are_b = std::popcount(near_b) < std::popcount(near_a);
@@ -263,7 +259,7 @@ bool SurfacePairSearch::find_meeting(const ConfirmInput& input, const ClusterFac
   counts.facet_box_pairs += shared.pairs;
   if (shared.pairs == 0) return false;
   kernels().leave_aside(few.corners, shared.facets, many.corners, gap, static_cast<float>(1.001 * scale_ * slack),
-                        slack > 0.0 ? 1 : kWorthAPlane, met_);
+                        slack > 0.0 ? 1 : static_cast<int>(input.tuning->worth_a_plane), met_);
   bool any = false;
   for (std::uint64_t left = shared.facets; left != 0;) {
     listed_.count = 0;

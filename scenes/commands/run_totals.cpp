@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "scenes/commands/counted.h"
 #include "scenes/commands/skipped_work.h"

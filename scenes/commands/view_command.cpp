@@ -21,7 +21,6 @@
 #include "scenes/files/mapped_file.h"
 #include "scenes/files/named_files.h"
 #include "scenes/files/of_recording.h"
-#include "scenes/files/source.h"
 #include "scenes/library/catalog.h"
 #include "scenes/pictures/program.h"
 

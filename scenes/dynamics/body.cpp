@@ -1,7 +1,6 @@
 #include "scenes/dynamics/body.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>

@@ -1,7 +1,6 @@
 #include "scenes/dynamics/simulation.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "engine/base/parallel.h"

@@ -23,7 +23,6 @@
 
 #include <tact/trace.h>
 
-#include <chrono>
 #include <optional>
 #include <ostream>
 #include <string>

@@ -1,7 +1,6 @@
 // A run as one animated glTF 2.0 file (.glb) for Blender and viewers on the web.
 #pragma once
 
-#include <cstdint>
 #include <ostream>
 #include <span>
 #include <string>

@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "scenes/commands/counted.h"
 
 namespace tact::scenes {

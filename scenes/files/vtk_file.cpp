@@ -7,7 +7,6 @@
 #include <limits>
 #include <optional>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "scenes/files/binary_reader.h"

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cmath>
 
 #include "scenes/library/catalog.h"
 #include "scenes/library/shapes.h"

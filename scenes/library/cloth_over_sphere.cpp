@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "scenes/library/catalog.h"
 #include "scenes/library/shapes.h"

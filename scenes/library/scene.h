@@ -1,8 +1,6 @@
 // A scene: bodies, how they move, and how a picture shows them.
 #pragma once
 
-#include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>

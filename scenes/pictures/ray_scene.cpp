@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <limits>
 #include <string>
-#include <vector>
 
 #include "narrowphase/pairs/embree.h"
 

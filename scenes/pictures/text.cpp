@@ -6,7 +6,6 @@
 #include FT_FREETYPE_H
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <stdexcept>

@@ -1,7 +1,6 @@
 #include "scenes/view/view_contacts.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <optional>

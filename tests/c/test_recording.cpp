@@ -3,7 +3,6 @@
 #include <tact/tact.h>
 #include <tact/tact_c.h>
 
-#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,7 +10,6 @@
 #include "tests/c/mesh_for_c.h"
 #include "tests/support/environment/temporary_folder.h"
 #include "tests/support/generators/bodies.h"
-#include "tests/support/generators/body_pairs.h"
 
 namespace tact::tests {
 namespace {

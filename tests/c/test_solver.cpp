@@ -6,7 +6,6 @@
 #include <tact/tact_c.h>
 
 #include <algorithm>
-#include <string>
 #include <vector>
 
 #include "tests/c/mesh_for_c.h"

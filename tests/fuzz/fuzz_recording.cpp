@@ -1,7 +1,6 @@
 // Any bytes are a recording that plays, or are refused in a message that names the byte.
 #include <tact/recording.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

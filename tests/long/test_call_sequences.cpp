@@ -3,7 +3,6 @@
 //   TACT_LONG_SEQUENCES  worlds, 10 if not set; TACT_LONG_SECONDS for as long instead; TACT_LONG_SEED
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <string>
 
 #include "engine/failed_step.h"

@@ -14,7 +14,6 @@
 #include "tests/support/checks/detection.h"
 #include "tests/support/environment/environment.h"
 #include "tests/support/generators/bodies.h"
-#include "tests/support/generators/body_pairs.h"
 
 namespace tact::tests {
 namespace {

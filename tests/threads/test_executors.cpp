@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <tact/tact.h>
 
-#include <array>
 #include <functional>
 #include <memory>
 #include <thread>

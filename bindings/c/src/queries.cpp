@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cstddef>
-#include <type_traits>
 
 #include "handles.h"
 

@@ -1,6 +1,5 @@
 #include <chrono>
 #include <cstddef>
-#include <span>
 #include <type_traits>
 
 #include "handles.h"

@@ -4,7 +4,6 @@
 #include <new>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "handles.h"

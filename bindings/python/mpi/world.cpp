@@ -2,7 +2,6 @@
 #include <pybind11/stl.h>
 #include <tact/mpi/world.h>
 
-#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>

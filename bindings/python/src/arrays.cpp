@@ -7,7 +7,6 @@
 #include <iterator>
 #include <limits>
 #include <type_traits>
-#include <utility>
 
 namespace tact::python {
 

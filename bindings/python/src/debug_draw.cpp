@@ -1,8 +1,6 @@
 #include <pybind11/stl.h>
 #include <tact/debug_draw.h>
 
-#include <memory>
-
 #include "bindings.h"
 #include "contact_sums.h"
 #include "distances.h"

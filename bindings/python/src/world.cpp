@@ -1,9 +1,7 @@
 #include <pybind11/stl.h>
 #include <tact/world.h>
 
-#include <algorithm>
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>

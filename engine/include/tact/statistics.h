@@ -128,7 +128,7 @@ inline constexpr StepStatsField<std::int64_t> kStepCounts[] = {
      "other facets dropped: outside the box of what is left of the other"},
     {"facets_outside_zone", &StepStats::facets_outside_zone, "facets dropped by criterion 3, outside the impact zone"},
     {"kept_facets", &StepStats::kept_facets, "facets left after the criteria"},
-    {"cluster_pairs", &StepStats::cluster_pairs, "pairs of clusters whose boxes overlap"},
+    {"cluster_pairs", &StepStats::cluster_pairs, "pairs of clusters whose boxes overlap and that no plane separates"},
     {"tree_pairs", &StepStats::tree_pairs, "contacts whose cluster pairs were found by trees rather than a plain loop"},
     {"facet_box_pairs", &StepStats::facet_box_pairs, "pairs of facets whose boxes overlap or nearly do"},
     {"triangle_tests", &StepStats::triangle_tests, "pairs of facets that doubles could not decide"},

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <tact/tact.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <tuple>
 #include <vector>

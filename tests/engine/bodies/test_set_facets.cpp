@@ -16,7 +16,6 @@
 #include "tests/support/generators/folds.h"
 #include "tests/support/generators/random.h"
 #include "tests/support/generators/remeshed.h"
-#include "tests/support/oracles/facet_pair_oracle.h"
 
 namespace tact::tests {
 namespace {

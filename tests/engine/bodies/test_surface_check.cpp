@@ -3,7 +3,6 @@
 #include <tact/tact.h>
 
 #include <array>
-#include <string>
 #include <vector>
 
 #include "tests/support/generators/bodies.h"

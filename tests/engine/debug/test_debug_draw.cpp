@@ -3,13 +3,11 @@
 #include <tact/solver/debug_draw.h>
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "tests/support/generators/bodies.h"
-#include "tests/support/generators/body_pairs.h"
 
 namespace tact::tests {
 namespace {

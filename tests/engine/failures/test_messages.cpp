@@ -1,13 +1,11 @@
 #include <gtest/gtest.h>
 #include <tact/tact.h>
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "tests/support/generators/bodies.h"
-#include "tests/support/generators/body_pairs.h"
 
 namespace tact::tests {
 namespace {

@@ -4,15 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 #include "tests/engine/motion/couples.h"
 #include "tests/support/environment/allocation_hook.h"
 #include "tests/support/generators/bodies.h"
-#include "tests/support/generators/folds.h"
 #include "tests/support/generators/random.h"
 #include "tests/support/oracles/motion_by_brute_force.h"
 

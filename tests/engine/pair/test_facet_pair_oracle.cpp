@@ -1,7 +1,6 @@
 // The oracle and the generators are held against the plain loop and against closed forms before they judge the engine.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <map>
 #include <utility>
 

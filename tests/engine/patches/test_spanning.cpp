@@ -5,11 +5,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <set>
 #include <string>
-#include <vector>
 
 #include "tests/support/generators/bodies.h"
 #include "tests/support/generators/random.h"

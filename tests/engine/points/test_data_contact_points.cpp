@@ -1,7 +1,6 @@
 // The engine's contact points, and facet pairs of bodies with themselves, on real meshes.
 #include <gtest/gtest.h>
 
-#include <map>
 #include <set>
 
 #include "tests/support/checks/detection.h"

@@ -4,7 +4,6 @@
 #include <tact/report_arrays.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>

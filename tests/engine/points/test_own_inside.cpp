@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <string>
 #include <vector>
 
 #include "tests/support/generators/bodies.h"

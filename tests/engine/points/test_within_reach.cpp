@@ -6,13 +6,11 @@
 #include <cmath>
 #include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "tests/support/generators/bodies.h"
 #include "tests/support/generators/folds.h"
 #include "tests/support/generators/messy_soups.h"
-#include "tests/support/generators/random.h"
 #include "tests/support/oracles/reach_oracle.h"
 
 namespace tact::tests {

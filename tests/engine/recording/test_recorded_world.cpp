@@ -9,7 +9,6 @@
 #include "tests/support/checks/recorded_world.h"
 #include "tests/support/environment/temporary_folder.h"
 #include "tests/support/generators/bodies.h"
-#include "tests/support/generators/body_pairs.h"
 
 namespace tact::tests {
 namespace {

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <regex>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "tests/support/checks/detection.h"

@@ -11,7 +11,6 @@
 #include "tests/support/generators/bodies.h"
 #include "tests/support/generators/body_pairs.h"
 #include "tests/support/generators/fans.h"
-#include "tests/support/generators/messy_soups.h"
 #include "tests/support/generators/random.h"
 #include "tests/support/hashes/work_hash.h"
 

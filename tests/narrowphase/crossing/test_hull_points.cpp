@@ -6,7 +6,6 @@
 #include "narrowphase/hull/support.h"
 #include "tests/support/environment/allocation_hook.h"
 #include "tests/support/generators/random.h"
-#include "tests/support/inside/clustered.h"
 
 namespace tact::narrowphase {
 namespace {

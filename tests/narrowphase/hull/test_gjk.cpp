@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 
 #include "narrowphase/direction/contact_direction.h"

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "narrowphase/hull/kdop.h"
 #include "tests/support/generators/point_soup.h"

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/mesh/clustered_mesh.h"
 #include "narrowphase/mesh/features.h"
-#include "tests/support/generators/bodies.h"
 #include "tests/support/inside/clustered.h"
 #include "tests/support/inside/facet_blocks.h"
 #include "tests/support/inside/facet_filters.h"

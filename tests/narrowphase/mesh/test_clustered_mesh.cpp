@@ -1,12 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <vector>
-
 #include "narrowphase/mesh/clustered_mesh.h"
 #include "narrowphase/mesh/refit.h"
 #include "tests/support/generators/bodies.h"
-#include "tests/support/generators/random.h"
 #include "tests/support/inside/clustered.h"
 
 namespace tact::narrowphase {

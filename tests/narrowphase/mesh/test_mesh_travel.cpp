@@ -7,7 +7,6 @@
 
 #include "narrowphase/mesh/refit.h"
 #include "tests/support/generators/bodies.h"
-#include "tests/support/generators/random.h"
 #include "tests/support/inside/clustered.h"
 
 namespace tact::narrowphase {

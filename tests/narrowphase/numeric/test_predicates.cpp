@@ -7,9 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "narrowphase/numeric/predicates.h"

@@ -23,20 +23,7 @@ std::vector<ClusterPair> pairs_by_loop(const ClusterBoxes& a, const ClusterBoxes
   return pairs;
 }
 
-// In ranges of runs, each with memory of its own, one after the other.
-std::vector<ClusterPair> pairs_in_ranges(const ClusterBoxes& a, const ClusterBoxes& b, double reach, int ranges,
-                                         const base::Tuning& tuning, EmbreeDevice& device) {
-  ClusterPairFinder finder;
-  const int runs = finder.begin(a, b, reach, tuning, device);
-  std::vector<ClusterPair> pairs;
-  for (int i = 0; i < ranges; ++i) {
-    ClusterJoin::Memory memory;
-    finder.find_range(runs * i / ranges, runs * (i + 1) / ranges, memory, pairs);
-  }
-  return pairs;
-}
-
-// Still, grown and swept; all at once and in ranges; by the loops and by the trees; one finder for all.
+// Still, grown and swept; by the loops and by the trees; one finder for all.
 void expect_pairs_of_loop(const ClusterBoxes& a, const ClusterBoxes& b, ClusterPairFinder& finder,
                           EmbreeDevice& device) {
   // Of a distance that no two boxes here have: at the reach itself rounding decides.
@@ -46,9 +33,6 @@ void expect_pairs_of_loop(const ClusterBoxes& a, const ClusterBoxes& b, ClusterP
       way.tuning.worth_planes = base::Tuning::kNever;  // of boxes alone
       const auto found = finder.find(a, b, reach, way.tuning, device);
       EXPECT_TRUE(std::vector(found.begin(), found.end()) == expected) << way.name << ", reach " << reach;
-      for (const int ranges : {1, 3, 100})
-        EXPECT_TRUE(pairs_in_ranges(a, b, reach, ranges, way.tuning, device) == expected)
-            << way.name << ", reach " << reach << ", " << ranges << " ranges";
     }
   }
 }
@@ -99,7 +83,6 @@ TEST(ClusterPairs, AreNoneFarAway) {
   const ClusteredMesh a = tests::clustered(tests::icosphere(2)),
                       b = tests::clustered(tests::translated(tests::icosphere(2), {4, 0, 0}));
   EXPECT_TRUE(finder.find({.mesh = &a}, {.mesh = &b}, 1.0, base::kTuning, device).empty());
-  EXPECT_EQ(finder.begin({.mesh = &a}, {.mesh = &b}, 1.0, base::kTuning, device), 0);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "tests/support/checks/varied_calls.h"
 
-#include <algorithm>
 #include <bit>
 
 #include "tests/support/generators/bodies.h"

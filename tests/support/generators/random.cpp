@@ -3,15 +3,11 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/base/hash.h"
+
 namespace tact::tests {
 
-std::uint64_t Random::bits() {
-  state_ += 0x9e3779b97f4a7c15u;
-  std::uint64_t z = state_;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
+std::uint64_t Random::bits() { return base::mixed(state_ += base::kGoldenStep); }
 
 Vec3 Random::in_cube(double half_edge) {
   const double x = uniform(-half_edge, half_edge);

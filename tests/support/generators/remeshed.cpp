@@ -4,7 +4,6 @@
 #include <array>
 #include <map>
 #include <numeric>
-#include <utility>
 
 namespace tact::tests {
 namespace {

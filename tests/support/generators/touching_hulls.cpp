@@ -1,7 +1,6 @@
 #include "tests/support/generators/touching_hulls.h"
 
 #include <cmath>
-#include <limits>
 
 #include "tests/support/generators/hostile_hulls.h"
 #include "tests/support/generators/random.h"

@@ -1,7 +1,6 @@
 // Contact points: surfaces within their margins, and ones that have crossed.
 #include <array>
 #include <cstddef>
-#include <vector>
 
 #include "tests/support/generators/bodies.h"
 #include "tests/support/generators/body_pairs.h"

@@ -1,7 +1,6 @@
 // Bodies against themselves: facet pairs and points, before and after they cross themselves.
 #include <array>
 #include <cstddef>
-#include <vector>
 
 #include "tests/support/generators/bodies.h"
 #include "tests/support/hashes/hash_scene_list.h"

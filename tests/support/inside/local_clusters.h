@@ -1,7 +1,6 @@
 // A cluster in floats about the middle of its box, by one set of kernels.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "narrowphase/kernels/kernels.h"

@@ -7,10 +7,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <span>
 #include <string>
-#include <utility>
 
 namespace tact::solver {
 
