@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <malloc.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,8 @@
 namespace tact::bench {
 namespace {
 
-// The caches of processor 0 in bytes, smallest first; as far as the system tells.
+// The caches of processor 0 in bytes, smallest first; as far as the system tells, or else the C library, which asks the
+// processor: virtual machines may have no files of them.
 std::vector<double> named_caches() {
   std::vector<double> sizes;
   for (const int index : {0, 2, 3}) {
@@ -22,6 +24,10 @@ std::vector<double> named_caches() {
     double size = 0.0;
     char unit = ' ';
     if (file >> size >> unit) sizes.push_back(size * (unit == 'K' ? 1024.0 : unit == 'M' ? 1048576.0 : 1.0));
+  }
+  if (!sizes.empty()) return sizes;
+  for (const int name : {_SC_LEVEL1_DCACHE_SIZE, _SC_LEVEL2_CACHE_SIZE, _SC_LEVEL3_CACHE_SIZE}) {
+    if (const long size = sysconf(name); size > 0) sizes.push_back(static_cast<double>(size));
   }
   return sizes;
 }
@@ -64,6 +70,7 @@ const std::vector<double>& data_caches() {
 }  // namespace
 
 std::optional<int> cache_level(double bytes) {
+  if (data_caches().empty()) return std::nullopt;
   int level = 1;
   for (const double size : data_caches()) {
     if (bytes > size && bytes < 2.0 * size) return std::nullopt;
@@ -81,7 +88,7 @@ std::string cache_line() {
 }
 
 std::string level_name(std::optional<int> level) {
-  if (!level) return "between";
+  if (!level) return data_caches().empty() ? "unknown" : "between";
   return *level > 3 ? "memory" : fmt::format("L{}", *level);
 }
 

@@ -9,14 +9,14 @@
 namespace tact::bench {
 
 // The smallest cache that holds `bytes`: 1, 2, 3, or 4 for memory; none up to twice the size of a cache, of which a
-// part stays in it from step to step. The last cache counts as large as it was found to be, once in a run: it may be
-// shared with whoever else is on the machine.
+// part stays in it from step to step, and where no cache is known. The last cache counts as large as it was found to
+// be, once in a run: it may be shared with whoever else is on the machine.
 std::optional<int> cache_level(double bytes);
 
 // The sizes that cache_level() goes by, in words.
 std::string cache_line();
 
-// "L2", "memory", "between"
+// "L2", "memory", "between", "unknown"
 std::string level_name(std::optional<int> level);
 
 // What the program has allocated.
