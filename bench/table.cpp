@@ -89,7 +89,7 @@ void plot_bars(const std::filesystem::path& out, const std::string& name, const 
   }
   script += fmt::format(
       "EOD\nset title '{}'\nset ylabel '{}'\nset style data histograms\nset style fill solid 0.8\nset grid y\n"
-      "set xtics rotate by -35\nset key above\nset yrange [0:*]\n{}\nplot ",
+      "set xtics rotate by -35\nset rmargin 14\nset key above\nset yrange [0:*]\n{}\nplot ",
       chart.title, chart.unit, chart.settings);
   for (std::size_t k = 0; k < chart.bars.size(); ++k)
     script += fmt::format("{}$bars using {}:xtic(1) title '{}'", k == 0 ? "" : ", ", k + 2, chart.bars[k]);
