@@ -53,10 +53,11 @@ struct Measured {
   MotionStats stats;
 };
 
-// Bodies of a workload at one frame, which a step has seen, on their way to another.
+// Bodies of a workload on their way from the first frame to another.
 class MotionRunner {
  public:
-  MotionRunner(const Workload& workload, int threads) : workload_(workload), world_({.threads = threads}) {
+  MotionRunner(const Workload& workload, int to, int threads)
+      : workload_(workload), world_({.threads = threads}), to_(to) {
     for (const WorkloadBody& body : workload.bodies) {
       ids_.push_back(world_.add_body({.positions = body.frames[0],
                                       .facets = body.facets,
@@ -65,28 +66,26 @@ class MotionRunner {
                                       .mask = body.mask}));
     }
   }
-  void go(int from, int to) {
-    set(from);
+  // A step at the first frame, and the positions of the other one.
+  void go() {
+    set(0);
     world_.detect();
-    set(to);
+    set(to_);
   }
-  // As the first call after a step: a setting that is given again forgets what an earlier one found.
-  const MotionReport& detect(Impacts wanted) {
-    world_.set_margin(ids_[0], 0.0);
-    return world_.detect_motion(wanted);
-  }
-  // Of all on the whole way, and then on a half, a quarter and an eighth of it: how long it takes without positions,
-  // in parts of the first call.
-  double line_search(int from, int to) {
+  const MotionReport& detect(Impacts wanted) { return world_.detect_motion(wanted); }
+  // After a step, of all on the whole way, and then on a half, a quarter and an eighth of it: how long it takes without
+  // positions, in parts of the first call.
+  double line_search() {
     double first = 0.0, all = 0.0;
+    go();
     for (const double part : {1.0, 0.5, 0.25, 0.125}) {
       for (std::size_t i = 0; i < ids_.size(); ++i) {
         const WorkloadBody& body = workload_.bodies[i];
         if (body.fixed()) continue;
-        const Eigen::Matrix3Xd &begin = body.positions(from), &end = body.positions(to);
+        const Eigen::Matrix3Xd &begin = body.positions(0), &end = body.positions(to_);
         world_.set_positions(ids_[i], begin + part * (end - begin));
       }
-      all += time_ms(1, 1.0, [&] { part == 1.0 ? detect(Impacts::all) : world_.detect_motion(); });
+      all += time_ms(1, 1.0, [&] { world_.detect_motion(); });
       if (part == 1.0) first = all;
     }
     return all / first;
@@ -101,13 +100,16 @@ class MotionRunner {
   const Workload& workload_;
   World world_;
   std::vector<BodyId> ids_;
+  int to_;
 };
 
+// The first call after a step, time and again.
 Measured measure(MotionRunner& runner, Impacts wanted, int threads, double budget_ms) {
   std::vector<double> times;
   Measured result;
   double expected_ms = 0.0;
   for (const double start = wall_ms(); times.size() < 3 || wall_ms() - start < budget_ms;) {
+    runner.go();
     times.push_back(time_ms(threads, expected_ms, [&] { result.stats = runner.detect(wanted).stats(); }));
     expected_ms = times.back();
   }
@@ -158,15 +160,15 @@ Table measure_leaps(const std::vector<Leaps>& all, const BenchOptions& options, 
   for (const Leaps& leaps : all) {
     if (!options.plays(leaps.name)) continue;
     const Workload workload = leaps.make();
-    MotionRunner one(workload, 1), several(workload, threads);
-    one.go(0, leaps.frames);
-    several.go(0, leaps.frames);
+    MotionRunner one(workload, leaps.frames, 1), several(workload, leaps.frames, threads);
+    one.go();
+    several.go();
     add_answers(one, several, leaps.name, answers);
     const auto [ms, stats] = measure(one, Impacts::all, 1, budget_ms);
     const double first_ms = measure(one, Impacts::first, 1, budget_ms).ms;
     const double several_ms = measure(several, Impacts::all, threads, budget_ms).ms;
     std::vector<double> searches;
-    for (int k = 0; k < 3; ++k) searches.push_back(one.line_search(0, leaps.frames));
+    for (int k = 0; k < 3; ++k) searches.push_back(one.line_search());
     const auto candidates = static_cast<double>(std::max<std::int64_t>(stats.candidates, 1));
     table.add({leaps.name, fmt::to_string(workload.facet_count()), fmt::to_string(stats.body_pairs),
                fmt::to_string(stats.candidates), three_digits(100.0 * static_cast<double>(stats.searched) / candidates),
@@ -218,9 +220,14 @@ Table measure_growth(bool quick, double budget_ms, tests::AnswerHash& answers) {
     World world({.threads = 1});
     const BodyId a = world.add_body({.positions = couple.a.begin.positions, .facets = couple.a.begin.facets});
     const BodyId b = world.add_body({.positions = couple.b.begin.positions, .facets = couple.b.begin.facets});
-    world.detect();
-    world.set_positions(a, couple.a.end);
-    world.set_positions(b, couple.b.end);
+    const auto go = [&] {
+      world.set_positions(a, couple.a.begin.positions);
+      world.set_positions(b, couple.b.begin.positions);
+      world.detect();
+      world.set_positions(a, couple.a.end);
+      world.set_positions(b, couple.b.end);
+    };
+    go();
     answers.add(world.detect_motion());
     const bool with_rival = frequency <= 32;
     double rival_ms = 0.0;
@@ -230,11 +237,10 @@ Table measure_growth(bool quick, double budget_ms, tests::AnswerHash& answers) {
       check_against_rival(world.detect_motion(), rival);
     }
     std::vector<double> all;
-    for (const double start = wall_ms(); all.size() < 3 || wall_ms() - start < budget_ms;)
-      all.push_back(time_ms(1, 1.0, [&] {
-        world.set_margin(a, 0.0);  // see MotionRunner::detect()
-        world.detect_motion();
-      }));
+    for (const double start = wall_ms(); all.size() < 3 || wall_ms() - start < budget_ms;) {
+      go();
+      all.push_back(time_ms(1, 1.0, [&] { world.detect_motion(); }));
+    }
     const MotionStats stats = world.detect_motion().stats();
     const double ms = median(all);
     facets.push_back(static_cast<double>(stats.candidates));
