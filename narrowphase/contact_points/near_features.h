@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "engine/base/lowest_bits.h"
+#include "narrowphase/contact_points/feature_point.h"
 #include "narrowphase/contact_points/open_features.h"
 
 namespace tact::narrowphase {
