@@ -63,6 +63,8 @@ def table(match):
     rows = [row for row in csv.DictReader((PROJECT / path).open()) if filtered is None or row[filtered] == value]
     if not rows:
         raise ValueError(f"{path}: no row has {filtered} = {value}")
+    if missing := [name for name in names if name not in rows[0]]:
+        raise ValueError(f"{path}: there is no column {', '.join(missing)}")
     cells = [[row[name] for name in names] for row in rows]
     header = [f"| {' | '.join(names)} |", f"|---|{'---:|' * (len(names) - 1)}"]
     return "\n".join(header + [f"| {' | '.join(line)} |" for line in cells])
