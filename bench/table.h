@@ -13,6 +13,7 @@ class Table {
 
   // One cell a column.
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  bool empty() const { return rows_.empty(); }
 
   // Columns as wide as they need to be, the first to the left, the others to the right; a blank line follows.
   void print() const;

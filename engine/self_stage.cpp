@@ -113,8 +113,7 @@ void SelfStage::find_facet_pairs(const Bodies& bodies, const Settings& settings,
   });
   large_.gather(settings.threads, [&](const Large::Shared& shared, int thread, int threads) {
     SelfRecord& record = *shared.item;
-    for (const Large::Range& range : large_.ranges(shared))
-      record.facet_pairs.insert(record.facet_pairs.end(), range.found.begin(), range.found.end());
+    large_.collect(shared, record.facet_pairs);
     sort(record, mesh_of(record), work_[thread].sorter, threads);
   });
 }

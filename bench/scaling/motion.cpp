@@ -288,6 +288,7 @@ int run_motion(const BenchOptions& options) {
   const bool quick = options.quick;
   tests::AnswerHash answers;
   const Table leaps = measure_leaps(leaps_of(quick), options, threads, budget_ms, answers);
+  if (leaps.empty()) options.reject_only();
   leaps.print();
   if (!options.only.empty()) {
     print_answer_line(answers);

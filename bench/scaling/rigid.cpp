@@ -190,6 +190,7 @@ int run_rigid(const BenchOptions& options) {
     if (!options.plays(scene.name)) continue;
     for (int t = 1; t <= threads; t *= 2) add_row(scene, t, budget_ms, table, answers);
   }
+  if (table.empty()) options.reject_only();
   table.print();
   print_answer_line(answers);
   if (!options.out.empty()) table.write_csv(options.out / "rigid.csv");

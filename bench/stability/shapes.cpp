@@ -9,18 +9,7 @@
 
 namespace tact::bench {
 
-std::uint64_t StabilityRandom::bits() {
-  std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
-
-double StabilityRandom::uniform(double low, double high) {
-  return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53);
-}
-
-int StabilityRandom::below(int count) { return static_cast<int>(bits() % static_cast<std::uint64_t>(count)); }
+int StabilityRandom::below(int count) { return static_cast<int>(random_.bits() % static_cast<std::uint64_t>(count)); }
 
 Eigen::Vector3d StabilityRandom::in_cube(double half_edge) {
   const double x = uniform(-half_edge, half_edge), y = uniform(-half_edge, half_edge);

@@ -5,15 +5,15 @@
 #include <cstdint>
 
 #include "bench/error/truth.h"
+#include "scenes/library/random.h"
 
 namespace tact::bench {
 
-// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014): the same numbers on every platform.
+// Random numbers, the same on every platform.
 class StabilityRandom {
  public:
-  explicit StabilityRandom(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t bits();
-  double uniform(double low, double high);
+  explicit StabilityRandom(std::uint64_t seed) : random_(seed) {}
+  double uniform(double low, double high) { return random_.between(low, high); }
   // 0 <= the number < count.
   int below(int count);
   Eigen::Vector3d in_cube(double half_edge);
@@ -21,7 +21,7 @@ class StabilityRandom {
   Eigen::Matrix3d rotation();
 
  private:
-  std::uint64_t state_;
+  scenes::Random random_;
 };
 
 TruthMesh box_shape(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper);
