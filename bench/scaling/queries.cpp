@@ -173,6 +173,7 @@ int run_queries(const BenchOptions& options) {
   fmt::print("{}\n\n", machine_line(threads));
   // 20 f² facets each.
   const std::vector<int> frequencies = options.quick ? std::vector{6} : std::vector{22, 71, 224};
+  const std::vector<int> none{0};
   const std::vector<int> counts = options.quick ? std::vector{100, 1000} : std::vector{100, 1'000, 10'000, 100'000};
   constexpr int kQueryFrames = 4;
   Table table({"queries", "facets", "a step", "threads", "tact ms", "Embree ms", "FCL ms", "rival / tact",
@@ -182,17 +183,19 @@ int run_queries(const BenchOptions& options) {
     const Workload workload = large_pair(frequency, kQueryFrames);
     for (int t = 1; t <= threads; t *= 2) {
       QueryContest contest(workload.bodies[0], t, options.quick ? 5.0 : 200.0);
-      contest.add_row(QueryKind::refit_alone, 0, table, answers);
-      for (const QueryKind kind : {QueryKind::rays, QueryKind::points}) {
+      for (const QueryKind kind : {QueryKind::refit_alone, QueryKind::rays, QueryKind::points}) {
         if (!options.plays(kQueryNames[static_cast<std::size_t>(kind)])) continue;
-        for (const int count : counts) contest.add_row(kind, count, table, answers);
+        for (const int count : kind == QueryKind::refit_alone ? none : counts)
+          contest.add_row(kind, count, table, answers);
       }
     }
   }
-  table.print();
-  measure_many_bodies(options);
+  const bool many_bodies = options.plays("nearest points of many bodies");
+  if (table.empty() && !many_bodies) options.reject_only();
+  if (!table.empty()) table.print();
+  if (many_bodies) measure_many_bodies(options);
   print_answer_line(answers);
-  if (!options.out.empty()) table.write_csv(options.out / "queries.csv");
+  if (!options.out.empty() && !table.empty()) table.write_csv(options.out / "queries.csv");
   return 0;
 }
 

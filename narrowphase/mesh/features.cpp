@@ -100,9 +100,9 @@ Features::Features(const ClusteredMesh& mesh) {
   find_facets_at(mesh);
   find_firsts(mesh);
   find_repeated(mesh);
-  find_parts();
   vertex_of_source_.assign(mesh.source_vertex_count(), -1);
   for (int v = 0; v < mesh.vertex_count(); ++v) vertex_of_source_[mesh.source_vertex(v)] = v;
+  find_parts();
   if (!mesh.has_surface_alone()) find_bare(mesh);
 }
 
@@ -256,8 +256,8 @@ void Features::mark_repeated(const ClusteredMesh& mesh, std::vector<std::pair<Co
   }
 }
 
-// Each vertex leads to one of its part that is not above it, in the end to the first (Tarjan, "Efficiency of a good but
-// not linear set union algorithm", 1975).
+// Each vertex leads to one of its part that is not above it, in the end to the part's lowest (Tarjan, "Efficiency of a
+// good but not linear set union algorithm", 1975).
 void Features::find_parts() {
   std::vector<int> leads_to(facets_begin_.size() - 1);
   std::iota(leads_to.begin(), leads_to.end(), 0);
@@ -270,8 +270,10 @@ void Features::find_parts() {
     const auto [low, high] = std::minmax({first_of(v), first_of(w)});
     leads_to[high] = low;
   }
-  for (int v = 0; v < static_cast<int>(leads_to.size()); ++v) {
-    if (leads_to[v] == v) one_of_each_part_.push_back(v);
+  std::vector<char> is_known(leads_to.size(), 0);
+  for (const int v : vertex_of_source_) {
+    if (v < 0 || std::exchange(is_known[first_of(v)], 1) != 0) continue;
+    one_of_each_part_.push_back(v);
   }
 }
 

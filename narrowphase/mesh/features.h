@@ -66,7 +66,7 @@ class Features {
   /// Whether no facet of the surface has the vertices of a feature, which are the caller's: see WithoutArea. -1 fills
   /// up.
   bool is_bare(const std::array<int, 3>& source_vertices) const;
-  /// A vertex of each part connected by edges.
+  /// Of each part connected by edges the vertex that has the least number of the caller's, however facets are grouped.
   std::span<const int> one_of_each_part() const { return one_of_each_part_; }
 
   /// Prefetches what is known of a cluster's edges, facets and vertices.

@@ -12,7 +12,8 @@ class EmbreeDevice {
   EmbreeDevice(const EmbreeDevice&) = delete;
   EmbreeDevice& operator=(const EmbreeDevice&) = delete;
 
-  // The RTCDevice; null where Embree was left out. Errors: backend_failure, out_of_memory.
+  // The RTCDevice; null where Embree was left out, and once memory was too short for the first one of the process.
+  // Errors: backend_failure, out_of_memory.
   void* get();
   bool started() const;
 

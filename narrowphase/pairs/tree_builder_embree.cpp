@@ -1,6 +1,7 @@
 #include <tact/error.h>
 
 #include <array>
+#include <mutex>
 #include <string>
 
 #include "narrowphase/numeric/unit_scale.h"
@@ -27,6 +28,22 @@ RTCError take_error(RTCDevice device) {
     if (reason != RTC_ERROR_NONE) code = reason;
   }
   return code;
+}
+
+// The first device of a process sets up TBB, which Embree stands on. Where memory is short then, TBB waits for that ever
+// after: in oneTBB 2021.8 what throws in atomic_do_once() leaves it pending. So no other one is asked for.
+RTCDevice make_device() {
+  static std::mutex mutex;
+  static bool any_made = false, was_short_of_memory = false;
+  const std::lock_guard lock(mutex);
+  if (was_short_of_memory) return nullptr;
+  was_short_of_memory = !any_made;  // if it throws, which it does where even its own error finds no memory
+  RTCDevice device = rtcNewDevice(nullptr);
+  any_made = any_made || device != nullptr;
+  const RTCError error = device != nullptr ? RTC_ERROR_NONE : rtcGetDeviceError(nullptr);
+  was_short_of_memory = !any_made && error == RTC_ERROR_OUT_OF_MEMORY;
+  if (device == nullptr) fail(error);
+  return device;
 }
 
 // Numbers in Embree's void pointers: never null, so that a node of zero is told from a failure.
@@ -60,10 +77,7 @@ EmbreeDevice::~EmbreeDevice() {
 
 void* EmbreeDevice::get() {
   const std::lock_guard lock(mutex_);
-  if (device_ == nullptr) {
-    device_ = rtcNewDevice(nullptr);
-    if (device_ == nullptr) fail(rtcGetDeviceError(nullptr));
-  }
+  if (device_ == nullptr) device_ = make_device();
   return device_;
 }
 
@@ -73,7 +87,7 @@ bool EmbreeDevice::started() const {
 }
 
 struct TreeBuilder::Implementation {
-  RTCDevice embree;
+  RTCDevice embree;  // null: there is none, and lists are cut
   BoxView boxes;
   std::vector<TreeNode>& nodes;
   Vec3 origin = {};
@@ -121,6 +135,7 @@ std::int32_t TreeBuilder::Implementation::halve(int begin, int end) {
 
 std::int32_t TreeBuilder::build(int begin, int end) {
   Implementation& self = *implementation_;
+  if (self.embree == nullptr) return self.halve(begin, end);
   self.list_primitives(begin, end);
   RTCBVH bvh = rtcNewBVH(self.embree);
   RTCError error = take_error(self.embree);

@@ -4,23 +4,40 @@
 //
 // rtcNewDevice is wrapped by the linker for the whole test program, which gives the tests the device of a world.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <vector>
 
+#include "engine/world_tuning.h"
 #include "narrowphase/pairs/embree.h"
 #include "tests/support/checks/detection.h"
+#include "tests/support/checks/tunings.h"
+#include "tests/support/environment/allocation_hook.h"
 #include "tests/support/generators/bodies.h"
 
 namespace {
 
 bool refuse_to_start = false;
+long failing_in_start = -1;  // an allocation; negative: none
+bool fails_for_good = false, has_failed = false;
 RTCDevice last_device = nullptr;
+
+// While Embree starts, which may throw.
+struct ShortOfMemory {
+  ShortOfMemory() {
+    if (failing_in_start >= 0) tact::tests::fail_allocation(failing_in_start, fails_for_good);
+  }
+  ~ShortOfMemory() { has_failed = tact::tests::stop_failing(); }
+};
 
 }  // namespace
 
 extern "C" RTCDevice __real_rtcNewDevice(const char* config);
 extern "C" RTCDevice __wrap_rtcNewDevice(const char* config) {
+  const ShortOfMemory short_of_memory;
   last_device = refuse_to_start ? nullptr : __real_rtcNewDevice(config);
   return last_device;
 }
@@ -90,6 +107,52 @@ TEST_F(WorldWithEmbree, WhoseMemoryMonitorRefusesAll) {
   rtcSetDeviceMemoryMonitorFunction(last_device, nullptr, nullptr);
   detect_again();
   EXPECT_EQ(meeting_bodies(world_.detect(), ids_), meeting_bodies_by_engine(bodies_));
+}
+
+// Status of a process that ends a test.
+enum Ended { kFailedAndMended, kNothingFailed, kWrong };
+
+// Ends a process in which Embree was not started before.
+[[noreturn]] void start_short_of_memory(long allocation, bool for_good) {
+  alarm(60);  // ends a process that waits for ever
+  const std::vector<Mesh> bodies{icosphere(3), translated(icosphere(3), {0.3, 0.1, 0.0})};
+  World world({.threads = 1});
+  WorldTuning::set(world, kForced);
+  const std::vector<BodyId> ids = add_bodies(world, bodies);
+  failing_in_start = allocation;
+  fails_for_good = for_good;
+  try {
+    world.detect();  // a failure may go unnoticed: Embree reads files
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::out_of_memory) std::_Exit(kWrong);
+  }
+  failing_in_start = -1;
+  if (!has_failed) std::_Exit(kNothingFailed);
+  world.set_settings(world.settings());  // looks at every pair anew
+  const Report& report = world.detect();
+  const bool right = report.stats().tree_pairs == 1 &&
+                     same_meeting_bodies(meeting_bodies_by_engine(bodies), meeting_bodies(report, ids));
+  std::_Exit(right ? kFailedAndMended : kWrong);
+}
+
+// TBB sets itself up once for the process: each allocation, alone and with all that follow, fails in one of its own.
+// That runs this test again, and leaves it where it started: the loops must not go by what the others found.
+TEST(EmbreeDeathTest, StartedShortOfMemoryLeavesAUsableWorld) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  int failures = 0;
+  bool done = false;
+  const auto has_ended = [&](int status) {
+    const int ended = WIFEXITED(status) ? WEXITSTATUS(status) : kWrong;
+    done = ended == kNothingFailed;
+    failures += ended == kFailedAndMended ? 1 : 0;
+    return ended != kWrong;
+  };
+  for (long allocation = 0; !done && !HasFailure(); ++allocation) {
+    ASSERT_LT(allocation, 1000);
+    for (const bool for_good : {false, true})
+      EXPECT_EXIT(start_short_of_memory(allocation, for_good), has_ended, "") << "allocation " << allocation;
+  }
+  EXPECT_GT(failures, 10);
 }
 
 // Its boxes are floats, and those beyond 1.8e18 it drops. A power of two changes no bit of a position but the exponent.

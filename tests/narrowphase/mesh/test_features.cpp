@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 #include <span>
 #include <vector>
@@ -49,12 +50,13 @@ struct ExpectedEdges {
   }
 };
 
-// The first vertex of each part, found by walking.
-std::vector<int> first_of_parts(const Features& features, int vertices) {
+// The first vertex of each part by the caller's numbers, found by walking.
+std::vector<int> first_of_parts(const Features& features, int source_vertices) {
   std::vector<int> firsts;
   std::set<int> seen;
-  for (int v = 0; v < vertices; ++v) {
-    if (!seen.insert(v).second) continue;
+  for (int source = 0; source < source_vertices; ++source) {
+    const int v = features.vertex_of_source(source);
+    if (v < 0 || !seen.insert(v).second) continue;
     firsts.push_back(v);
     for (std::vector<int> next{v}; !next.empty();) {
       const int from = next.back();
@@ -86,7 +88,7 @@ void expect_edges(const Mesh& of) {
       EXPECT_EQ(features.first_facet_of_edge(e) / narrowphase::kClusterSize, c);
   }
   EXPECT_EQ(features.is_closed(), std::ranges::all_of(expected.balance, [](int balance) { return balance == 0; }));
-  EXPECT_TRUE(std::ranges::equal(features.one_of_each_part(), first_of_parts(features, mesh.vertex_count())));
+  EXPECT_TRUE(std::ranges::equal(features.one_of_each_part(), first_of_parts(features, mesh.source_vertex_count())));
 }
 
 TEST(Features, HaveTheEdgesOfAllKindsOfMeshes) {
@@ -104,6 +106,25 @@ TEST(Features, HaveTheEdgesOfFacetsOnAnyVertices) {
     for (int& v : mesh.facets.reshaped()) v = random.below(vertices);
     expect_edges(mesh);
   }
+}
+
+// By the caller's numbers: where facet pairs are left out (Accuracy::paper) one vertex tells of a part whose other
+// vertices may be elsewhere.
+TEST(Features, NameEachPartByTheSameVertexHoweverFacetsAreGrouped) {
+  const Mesh of = merged(std::vector{torus(12, 8, 1.0, 0.3), translated(cube(1.0, {}), {3, 0, 0}), soup(30, 1.0, 4)});
+  std::vector<int> backwards(static_cast<std::size_t>(of.facets.cols()));
+  std::iota(backwards.rbegin(), backwards.rend(), 0);
+  const std::span<const double> positions(of.positions.data(), static_cast<std::size_t>(of.positions.size()));
+  const std::span<const int> facets(of.facets.data(), static_cast<std::size_t>(of.facets.size()));
+  const auto names = [](const ClusteredMesh& mesh) {
+    const Features features(mesh);
+    std::vector<int> sources;
+    for (const int v : features.one_of_each_part()) sources.push_back(mesh.source_vertex(v));
+    return sources;
+  };
+  const std::vector<int> expected = names(ClusteredMesh(positions, facets));
+  EXPECT_EQ(expected.size(), 32u);
+  EXPECT_EQ(names(ClusteredMesh(positions, facets, backwards)), expected);
 }
 
 // Two tips that all facets share.
