@@ -85,8 +85,8 @@ class FacetPoints {
 
  private:
   static int own_edge(const NearBody& body, int facet, int k) {
-    const int edge = body.features.facet_edge(facet, k);
-    return edge >= 0 && body.features.first_facet_of_edge(edge) == facet ? edge : -1;
+    const bool is_own = (body.features.firsts_of_facet(facet) >> k & 1u) != 0;
+    return is_own ? body.features.facet_edge(facet, k) : -1;
   }
   bool same() const { return &a_ == &b_; }
   // Whether a way between two features leads through the inside of a body, or back to the same place of a surface.

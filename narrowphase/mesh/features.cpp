@@ -144,7 +144,6 @@ void Features::find_edges(const ClusteredMesh& mesh) {
 void Features::find_ends(const ClusteredMesh& mesh, int count) {
   const auto edges = static_cast<std::size_t>(count);
   edges_.resize(edges);
-  first_facet_of_edge_.resize(edges);
   for (auto& corners : edge_corner_) corners.resize(edges + 64);
   std::vector<int> balances(edges, 0);  // of each edge: facets along it, less those that go the other way
   int known = 0;
@@ -163,7 +162,6 @@ void Features::find_ends(const ClusteredMesh& mesh, int count) {
           edges_[edge] = {corners[from], corners[to]};
           edge_corner_[0][edge] = cluster.corner[from][i];
           edge_corner_[1][edge] = cluster.corner[to][i];
-          first_facet_of_edge_[edge] = static_cast<int>(facet);
         }
         balances[edge] += corners[k] == edges_[edge][0] ? 1 : -1;
       }
@@ -206,8 +204,6 @@ void Features::find_facets_at(const ClusteredMesh& mesh) {
     }
   };
   list_by_key(static_cast<std::size_t>(mesh.vertex_count()), for_each_corner, facets_begin_, facets_);
-  first_facet_of_vertex_.reserve(static_cast<std::size_t>(mesh.vertex_count()));
-  for (int v = 0; v < mesh.vertex_count(); ++v) first_facet_of_vertex_.push_back(facets_[facets_begin_[v]]);
 }
 
 // In the order of the caller's numbers: a point in an edge or a vertex that has no direction of its own takes the
@@ -215,13 +211,16 @@ void Features::find_facets_at(const ClusteredMesh& mesh) {
 void Features::find_firsts(const ClusteredMesh& mesh) {
   std::vector<char> edge_is_told(edges_.size(), 0), vertex_is_told(static_cast<std::size_t>(mesh.vertex_count()), 0);
   firsts_of_facet_.assign(corners_.size(), 0);
+  first_facet_of_vertex_.resize(static_cast<std::size_t>(mesh.vertex_count()));
   for (int source = 0; source < mesh.facet_count(); ++source) {
     const auto f = static_cast<std::size_t>(mesh.facet_of_source(source));
     unsigned firsts = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const int edge = facet_edges_[3 * f + k], vertex = corners_[f][k];
       if (edge >= 0 && std::exchange(edge_is_told[edge], 1) == 0) firsts |= 1u << k;
-      if (std::exchange(vertex_is_told[vertex], 1) == 0) firsts |= 8u << k;
+      if (std::exchange(vertex_is_told[vertex], 1) != 0) continue;
+      firsts |= 8u << k;
+      first_facet_of_vertex_[vertex] = static_cast<int>(f);
     }
     firsts_of_facet_[f] = static_cast<std::uint8_t>(firsts);
   }

@@ -49,8 +49,7 @@ class Features {
   std::span<const int> facets_at(int vertex) const { return part(facets_, facets_begin_, vertex); }
   /// Whether facets go along every edge as often one way as the other.
   bool is_closed() const { return is_closed_; }
-  /// Among the facets that have an edge or a vertex, the first one.
-  int first_facet_of_edge(int edge) const { return first_facet_of_edge_[edge]; }
+  /// Among the facets that have a vertex the caller's first.
   int first_facet_of_vertex(int vertex) const { return first_facet_of_vertex_[vertex]; }
   /// Bit k: of the facets with the edge from corner k this one is the caller's first; bit 3 + k: the same of the vertex
   /// at corner k. Each edge and vertex has a bit once. kRepeatsFacet: a facet that the caller listed before has the
@@ -95,7 +94,7 @@ class Features {
   std::vector<int> opposite_, opposite_begin_;
   std::vector<Corners> corners_;
   std::vector<int> facet_edges_;
-  std::vector<int> first_facet_of_edge_, first_facet_of_vertex_;
+  std::vector<int> first_facet_of_vertex_;
   std::vector<std::uint8_t> firsts_of_facet_;
   std::vector<int> neighbors_, neighbors_begin_;
   std::vector<int> facets_, facets_begin_;

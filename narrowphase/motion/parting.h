@@ -66,7 +66,8 @@ class PartingSearch {
   Star a_, b_;
   bool own_in_plane_ = false;  // whether that is asked of each star
   std::vector<Plane> planes_;
-  std::vector<OpenWay> open_;  // scratch
+  std::vector<OpenWay> open_;   // scratch
+  std::vector<int> neighbors_;  // the same
 };
 
 }  // namespace tact::narrowphase

@@ -30,8 +30,8 @@ RTCError take_error(RTCDevice device) {
   return code;
 }
 
-// The first device of a process sets up TBB, which Embree stands on. Where memory is short then, TBB waits for that ever
-// after: in oneTBB 2021.8 what throws in atomic_do_once() leaves it pending. So no other one is asked for.
+// The first device of a process sets up TBB, which Embree stands on. Where memory is short then, TBB waits for that
+// ever after: in oneTBB 2021.8 what throws in atomic_do_once() leaves it pending. So no other one is asked for.
 RTCDevice make_device() {
   static std::mutex mutex;
   static bool any_made = false, was_short_of_memory = false;

@@ -11,6 +11,7 @@
 #include "tests/support/environment/allocation_hook.h"
 #include "tests/support/generators/bodies.h"
 #include "tests/support/generators/random.h"
+#include "tests/support/hashes/answer_hash.h"
 #include "tests/support/oracles/motion_by_brute_force.h"
 
 namespace tact::tests {
@@ -49,6 +50,47 @@ TEST(DetectMotion, SetsEqualBruteForceForAnyNumberOfThreads) {
         EXPECT_EQ(report.pairs()[0].impacts.size(), report.impacts().size());
       }
     }
+  }
+}
+
+// Facets are grouped by where they are when a body is added: first scattered, then in their place. Of a fan with many
+// facets around its tip, which slides along a wall, few planes are tried.
+TEST(DetectMotion, DoesNotDependOnHowFacetsAreGrouped) {
+  std::vector<Couple> all = couples();
+  Mesh fan;
+  constexpr int kAround = 200;
+  fan.positions.resize(3, kAround + 1);
+  fan.facets.resize(3, kAround);
+  fan.positions.col(0).setZero();
+  Random of_fan(17);
+  for (int i = 0; i < kAround; ++i) {
+    fan.positions.col(i + 1) << of_fan.below(9) - 4, of_fan.below(9) - 4, of_fan.below(3);
+    fan.facets.col(i) << 0, i + 1, (i + 1) % kAround + 1;
+  }
+  const Mesh wall = translated(scaled(sheet(8, 8, 2.0, 2.0), 16.0), {0.0, 0.0, -1.0});
+  all.push_back({"a tip that slides",
+                 {translated(fan, {0, 0, 1}), translated(fan, {3, 1, -1}).positions},
+                 {wall, wall.positions}});
+  for (const Couple& couple : all) {
+    const auto answer = [&](bool scattered) {
+      tact::World world({.threads = 1});
+      Random random(18);
+      for (const MovingMesh* mesh : {&couple.a, &couple.b}) {
+        Mesh first = mesh->begin;
+        if (scattered)
+          first.positions = soup((mesh->begin.vertex_count() + 2) / 3, 1.0, random.bits())
+                                .positions.leftCols(mesh->begin.vertex_count());
+        const BodyId id =
+            world.add_body({.positions = first.positions, .facets = first.facets, .surface = Surface::sheet});
+        world.set_positions(id, mesh->begin.positions);
+      }
+      world.detect();
+      for (const BodyId id : world.bodies()) world.set_positions(id, id.index == 0 ? couple.a.end : couple.b.end);
+      AnswerHash hash;
+      hash.add(world.detect_motion());
+      return hash.hashes();
+    };
+    EXPECT_EQ(answer(false), answer(true)) << couple.name;
   }
 }
 
