@@ -62,14 +62,15 @@ void PartingSearch::take_vertex(const MovingMesh& mesh, int vertex, Star& star) 
   star.vertices.assign(1, mesh.vertex(vertex));
   star.own = 1;
   star.is_border = false;
-  const std::span<const int> neighbors = mesh.features->neighbors(vertex);
-  neighbors_.assign(neighbors.begin(), neighbors.end());
+  std::span<const int> neighbors = mesh.features->neighbors(vertex);
   // Those of which planes are looked for come first: the caller's first, so that no grouping decides.
   if (neighbors.size() > kMostNeighbors) {
+    neighbors_.assign(neighbors.begin(), neighbors.end());
     std::ranges::nth_element(neighbors_, neighbors_.begin() + kMostNeighbors, {},
                              [&](int v) { return mesh.mesh->source_vertex(v); });
+    neighbors = neighbors_;
   }
-  for (const int next : neighbors_) star.vertices.push_back(mesh.vertex(next));
+  for (const int next : neighbors) star.vertices.push_back(mesh.vertex(next));
 }
 
 void PartingSearch::take_edge(const MovingMesh& mesh, int edge, Star& star) {

@@ -38,12 +38,14 @@ RTCDevice make_device() {
   const std::lock_guard lock(mutex);
   if (was_short_of_memory) return nullptr;
   was_short_of_memory = !any_made;  // if it throws, which it does where even its own error finds no memory
-  RTCDevice device = rtcNewDevice(nullptr);
-  any_made = any_made || device != nullptr;
-  const RTCError error = device != nullptr ? RTC_ERROR_NONE : rtcGetDeviceError(nullptr);
-  was_short_of_memory = !any_made && error == RTC_ERROR_OUT_OF_MEMORY;
-  if (device == nullptr) fail(error);
-  return device;
+  if (RTCDevice device = rtcNewDevice(nullptr); device != nullptr) {
+    any_made = true;
+    was_short_of_memory = false;
+    return device;
+  }
+  const RTCError error = rtcGetDeviceError(nullptr);
+  was_short_of_memory = was_short_of_memory && error == RTC_ERROR_OUT_OF_MEMORY;
+  fail(error);
 }
 
 // Numbers in Embree's void pointers: never null, so that a node of zero is told from a failure.

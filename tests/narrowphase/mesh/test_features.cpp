@@ -133,7 +133,7 @@ TEST(Features, NameTheSameHoweverFacetsAreGrouped) {
     }
     return named;
   };
-  const auto [parts, firsts] = names(ClusteredMesh(positions, facets));
+  const auto [parts, firsts] = names(clustered_mesh_of(of));
   EXPECT_EQ(parts.size(), 32u);
   const auto [parts_again, firsts_again] = names(ClusteredMesh(positions, facets, backwards));
   EXPECT_EQ(parts_again, parts);
