@@ -93,7 +93,8 @@ struct SkipTurnedAway {
 };
 
 // How high `v`, which is nearest to an edge, is above the edge's facets. The facet that sees it from more above or
-// below tells: v is beyond the other's edge, where its plane says little. Zero at the border.
+// below tells: v is beyond the other's edge, where its plane says little. Zero at the border, and where facets see it
+// as far above as below, as they may if they lie against each other.
 double height_at_edge(const ScaledMesh& m, int facet, int side, Vec3 v, double own_height) {
   const int edge = m.features.facet_edge(facet, side);
   if (edge < 0) return own_height;
@@ -102,15 +103,17 @@ double height_at_edge(const ScaledMesh& m, int facet, int side, Vec3 v, double o
   const Corners& c = m.features.corners(facet);
   const auto k = static_cast<std::size_t>(side);
   const Vec3 p = m.position(c[k]), q = m.position(c[(k + 1) % 3]);
-  double height = own_height;
+  double highest = own_height, lowest = own_height;
   for (const int other : third) {
     if (other == c[(k + 2) % 3]) continue;
     const Vec3 normal = cross(p - q, m.position(other) - q);  // the neighbour has the edge the other way around
     const double length = norm(normal);
     const double above = length > 0.0 ? dot(normal, v - q) / length : 0.0;
-    if (std::abs(above) > std::abs(height)) height = above;
+    highest = std::max(highest, above);
+    lowest = std::min(lowest, above);
   }
-  return height;
+  if (highest == -lowest) return 0.0;
+  return highest > -lowest ? highest : lowest;
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "narrowphase/crossing/nearest_exit.h"
 #include "tests/support/inside/clustered.h"
 #include "tests/support/oracles/query_oracle.h"
@@ -72,6 +75,28 @@ TEST(NearestExit, IsTheSameInOtherUnits) {
   expect_exits_of_brute_force(tests::blob(3, 1.0, 0.3, 8), 0x1p300, 13);
   expect_exits_of_brute_force(tests::blob(3, 1.0, 0.3, 9), 0x1p-300, 14);
   expect_exits_of_brute_force(tests::blob(3, 1.0, 0.3, 9), 0x1p-450, 15);
+}
+
+// Beyond the tip of four facets, two of which lie in the plane across the other two, on either side of their edge: one
+// says that the vertex is as far above the sheet as the other says it is below.
+TEST(NearestExit, ThroughASheetIsNoneWhereFacetsContradictEachOther) {
+  Mesh sheet;
+  sheet.positions.resize(3, 6);
+  sheet.positions.transpose() << 0, 0, 0, 1, 0, 0, 1, 0, -1, 0, 0, -1, 1, 1, 0, 1, -1, 0;
+  sheet.facets.resize(3, 4);
+  sheet.facets.transpose() << 1, 2, 0, 2, 3, 0, 4, 1, 0, 0, 1, 5;
+  const Vec3 beyond{-0.3, 0.01, 0.2};
+  std::vector<int> order{0, 1, 2, 3};
+  do {
+    const ClusteredMesh mesh({sheet.positions.data(), 18}, {sheet.facets.data(), 12}, order);
+    const Features features(mesh);
+    ExitFinder finder;
+    finder.begin({mesh, features, 1.0});
+    EXPECT_FALSE(finder.nearest_exit_through(beyond, 1.0, -1)) << ::testing::PrintToString(order);
+    const auto through = finder.nearest_exit_through({0.5, 0.25, 0.25}, 1.0, -1);  // above one facet alone
+    ASSERT_TRUE(through);
+    EXPECT_EQ(mesh.source_facet(through->exit.facet), 2);
+  } while (std::ranges::next_permutation(order).found);
 }
 
 }  // namespace

@@ -107,6 +107,12 @@ Way along(const Shape& s, const Long3& v, const Long3& direction) {
   return best;
 }
 
+// How two convex bodies are parted of which most vertices that were past each other have come out.
+struct Separation {
+  Long3 direction;  // from a to b
+  bool leads_all = false;
+};
+
 bool segment_meets(const Long3& p, const Long3& q, const Shape& s, const std::array<int, 3>& c) {
   const Long3 u = at(s, c[0]), v = at(s, c[1]), w = at(s, c[2]), n = (v - u).cross(w - u);
   if (n.dot(p - u) * n.dot(q - u) > 0) return false;
@@ -140,10 +146,35 @@ class Crossed {
     return result;
   }
   bool is_inside(int v) const { return inside_.contains(v); }
+  const std::set<int>& inside_vertices() const { return inside_; }
   const Way& way(int v) const { return ways_.at(v).first; }
   bool is_certain(int v) const { return !led_.contains(v) && (!is_inside(v) || ways_.at(v).second); }
   // The crossing of these vertices leads them: their ways are not looked for here.
   void set_led(std::set<int> vertices) { led_ = std::move(vertices); }
+  // Vertices that came in and whose ways are against the direction, or all, take the nearest way along it.
+  void lead(const Separation& separation) {
+    for (auto& [v, one] : ways_) {
+      auto& [way, certain] = one;
+      const long double along = sign_ * way.out.dot(separation.direction);
+      const bool was_inside = last_.contains(v) && last_.at(v).gap < 0.0;
+      if (!separation.leads_all) {
+        if (was_inside || along > kBand) continue;
+        certain = certain && along < -kBand;
+      }
+      const auto led = [&](long double shift) {
+        Way found;
+        for (const long double cosine : {0.5L, 0.05L}) {
+          found = nearest_facing(other_, at(own_, v), sign_ * separation.direction, cosine + shift);
+          if (found.distance <= depth_ + 1e-12L + shift) return found;
+        }
+        return way;
+      };
+      const Way found = led(0);
+      certain = (certain || separation.leads_all) && std::abs(led(kBand).distance - found.distance) <= kBand &&
+                std::abs(led(-kBand).distance - found.distance) <= kBand;
+      way = found;
+    }
+  }
   const std::map<int, int>& patches() const { return patch_; }
   bool is_cut(const VertexPair& edge) const { return hits_.contains(edge); }
   bool runs_through(const VertexPair& edge) const {
@@ -365,14 +396,15 @@ LastNormals last_normals(const Contact& contact) {
   std::map<int, double> gap_a, gap_b;
   for (const ContactPoint& point : contact.points()) {
     const auto &a = point.a_vertices, &b = point.b_vertices;
-    if (point.kind == FeaturePair::edge_edge && point.gap < 0.0) last.crossed_edges.insert({a[0], a[1], b[0], b[1]});
+    const Vec3 normal{point.normal.x(), point.normal.y(), point.normal.z()};
+    if (point.kind == FeaturePair::edge_edge && point.gap < 0.0) last.crossed_edges[{a[0], a[1], b[0], b[1]}] = normal;
     if (point.kind == FeaturePair::edge_edge) continue;
     const bool of_a = point.kind == FeaturePair::vertex_facet;
     const int v = of_a ? a[0] : b[0];
     auto& gaps = of_a ? gap_a : gap_b;
     if (gaps.contains(v) && gaps[v] <= point.gap) continue;
     gaps[v] = point.gap;
-    (of_a ? last.of_a : last.of_b)[v] = {{point.normal.x(), point.normal.y(), point.normal.z()}, point.gap};
+    (of_a ? last.of_a : last.of_b)[v] = {normal, point.gap};
   }
   return last;
 }
@@ -414,7 +446,7 @@ void find_led(const VertexSets& set, const LastNormals& last, Crossed& in_b, Cro
   for (const auto& [v, one] : last.of_b) {
     if (one.gap < 0.0) take(-1 - v, in_a.is_inside(v));
   }
-  for (const auto& e : last.crossed_edges) {
+  for (const auto& [e, _] : last.crossed_edges) {
     for (const int v : {e[0], e[1], -1 - e[2], -1 - e[3]}) take(v, false);
   }
   for (const auto& [v, root] : set) {
@@ -423,6 +455,34 @@ void find_led(const VertexSets& set, const LastNormals& last, Crossed& in_b, Cro
   }
   in_b.set_led(std::move(led_a));
   in_a.set_led(std::move(led_b));
+}
+
+bool is_convex(const Shape& s) {
+  return std::ranges::all_of(s.facets, [&](const auto& c) {
+    const Long3 n = normal_of(s, c);
+    return std::ranges::all_of(s.x, [&](const Long3& x) { return n.dot(x - at(s, c[0])) <= kBand; });
+  });
+}
+
+// Of convex bodies if no more than a third of what had negative gaps is past the other one still, and others are.
+std::optional<Separation> separation_of(const Shape& a, const Shape& b, const Crossed& in_b, const Crossed& in_a,
+                                        const LastNormals& last, const Long3& direction) {
+  std::vector<Long3> normals;
+  std::size_t still = 0;
+  for (const bool of_a : {true, false}) {
+    for (const auto& [v, one] : of_a ? last.of_a : last.of_b) {
+      if (one.gap >= 0.0) continue;
+      normals.push_back(to_long(one.normal));
+      still += (of_a ? in_b : in_a).is_inside(v) ? 1 : 0;
+    }
+  }
+  for (const auto& [_, normal] : last.crossed_edges) normals.push_back(to_long(normal));
+  const std::size_t all = in_b.inside_vertices().size() + in_a.inside_vertices().size();
+  if (normals.empty() || still == all || 3 * still > normals.size() || !is_convex(a) || !is_convex(b)) return {};
+  Long3 sum = Long3::Zero();
+  for (const Long3& n : normals) sum += n;
+  if (sum.norm() > 0.8L * static_cast<long double>(normals.size())) return Separation{sum.normalized()};
+  return Separation{direction, std::ranges::any_of(normals, [&](const Long3& n) { return n.dot(direction) < 0.5L; })};
 }
 
 // Those sets that have no point.
@@ -447,6 +507,10 @@ ExpectedGaps gaps_by_brute_force(const Mesh& a, const Mesh& b, const Contact& co
   const Long3 direction = contact.direction.cast<long double>();
   Crossed in_b(shape_a, shape_b, -direction, contact.depth, last.of_a, -1);
   Crossed in_a(shape_b, shape_a, direction, contact.depth, last.of_b, 1);
+  if (const auto separation = separation_of(shape_a, shape_b, in_b, in_a, last, direction)) {
+    in_b.lead(*separation);
+    in_a.lead(*separation);
+  }
   const VertexSets sets = vertex_sets(in_b, in_a, contact.facet_pairs(), shape_a, shape_b);
   find_led(sets, last, in_b, in_a);
   const EdgeOracle edges(shape_a, shape_b, in_b, in_a, direction, contact.depth);

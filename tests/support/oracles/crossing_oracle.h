@@ -32,7 +32,7 @@ struct LastNormals {
     double gap = 0.0;
   };
   std::map<int, Of> of_a, of_b;
-  std::set<std::array<int, 4>> crossed_edges;  // of a, of b: those with a negative gap
+  std::map<std::array<int, 4>, Vec3> crossed_edges;  // of a, of b: the normals of those with a negative gap
 };
 LastNormals last_normals(const Contact& contact);
 
