@@ -14,6 +14,7 @@
 #include "narrowphase/numeric/unit_scale.h"
 #include "narrowphase/queries/mesh_distance.h"
 #include "narrowphase/queries/mesh_overlap.h"
+#include "narrowphase/queries/mesh_queries.h"
 #include "narrowphase/queries/mesh_sweep.h"
 
 namespace tact {

@@ -1,7 +1,7 @@
 #include "engine/containment.h"
 
 #include "engine/base/parallel.h"
-#include "narrowphase/crossing/pair_crossing.h"
+#include "narrowphase/queries/mesh_queries.h"
 
 namespace tact {
 
@@ -37,8 +37,7 @@ void ContainmentStage::run(std::span<const MovedPair> moved, Bodies& bodies, con
     const Wanted& one = wanted_[i];
     if (i > 0 && wanted_[i - 1].record == one.record) return;
     for (std::size_t k = i; k < wanted_.size() && wanted_[k].record == one.record; ++k) {
-      if (!narrowphase::is_contained(bodies.featured(wanted_[k].inner), bodies.in_slot(wanted_[k].outer).mesh))
-        continue;
+      if (!narrowphase::lies_inside(bodies.featured(wanted_[k].inner), bodies.in_slot(wanted_[k].outer).mesh)) continue;
       one.record->contact.containment = wanted_[k].containment;
       return;
     }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "narrowphase/crossing/disjoint_sets.h"
+#include "narrowphase/mesh/disjoint_sets.h"
 
 namespace tact::narrowphase {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "narrowphase/crossing/disjoint_sets.h"
+#include "narrowphase/mesh/disjoint_sets.h"
 #include "narrowphase/queries/mesh_queries.h"
 
 namespace tact::narrowphase {

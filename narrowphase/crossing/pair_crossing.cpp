@@ -29,13 +29,6 @@ void set_without_near_points(CrossedSurface& own) {
 
 }  // namespace
 
-bool is_contained(const FeaturedMesh& inner, const ClusteredMesh& outer) {
-  const Box &in = inner.mesh->box(), &out = outer.box();
-  if (in.empty() || !contains(out, in.lower) || !contains(out, in.upper)) return false;
-  return std::ranges::all_of(inner.features->one_of_each_part(),
-                             [&](int v) { return contains(outer, inner.mesh->position(v)); });
-}
-
 const Crossing& PairCrossing::find(const PairCrossingInput& input) {
   begin(input);
   auto& [a, b] = crossing_.surfaces;

@@ -55,9 +55,6 @@ struct PairCrossingInput {
   CarriedPoints carried;
 };
 
-/// Whether every vertex of a mesh is inside the closed one `outer`. Exact, for meshes of which no facets meet.
-bool is_contained(const FeaturedMesh& inner, const ClusteredMesh& outer);
-
 /// Buffers are reused.
 class PairCrossing {
  public:

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/hash.h"
+#include "narrowphase/mesh/mesh_parts.h"
 #include "narrowphase/mesh/prefetch.h"
 
 namespace tact::narrowphase {
@@ -102,7 +103,7 @@ Features::Features(const ClusteredMesh& mesh) {
   find_repeated(mesh);
   vertex_of_source_.assign(mesh.source_vertex_count(), -1);
   for (int v = 0; v < mesh.vertex_count(); ++v) vertex_of_source_[mesh.source_vertex(v)] = v;
-  find_parts();
+  one_of_each_part_ = narrowphase::one_of_each_part(mesh, edges_);
   if (!mesh.has_surface_alone()) find_bare(mesh);
 }
 
@@ -252,27 +253,6 @@ void Features::mark_repeated(const ClusteredMesh& mesh, std::vector<std::pair<Co
   for (std::size_t i = 1; i < sorted.size(); ++i) {
     if (sorted[i].first == sorted[i - 1].first)
       firsts_of_facet_[mesh.facet_of_source(sorted[i].second)] |= static_cast<std::uint8_t>(mark);
-  }
-}
-
-// Each vertex leads to one of its part that is not above it, in the end to the part's lowest (Tarjan, "Efficiency of a
-// good but not linear set union algorithm", 1975).
-void Features::find_parts() {
-  std::vector<int> leads_to(facets_begin_.size() - 1);
-  std::iota(leads_to.begin(), leads_to.end(), 0);
-  const auto first_of = [&](int v) {
-    while (leads_to[v] != v) v = leads_to[v] = leads_to[leads_to[v]];
-    return v;
-  };
-  for (const auto& [v, w] : edges_) {
-    if (leads_to[v] == leads_to[w]) continue;
-    const auto [low, high] = std::minmax({first_of(v), first_of(w)});
-    leads_to[high] = low;
-  }
-  std::vector<char> is_known(leads_to.size(), 0);
-  for (const int v : vertex_of_source_) {
-    if (v < 0 || std::exchange(is_known[first_of(v)], 1) != 0) continue;
-    one_of_each_part_.push_back(v);
   }
 }
 

@@ -65,7 +65,7 @@ class Features {
   /// Whether no facet of the surface has the vertices of a feature, which are the caller's: see WithoutArea. -1 fills
   /// up.
   bool is_bare(const std::array<int, 3>& source_vertices) const;
-  /// Of each part connected by edges the vertex that has the least number of the caller's, however facets are grouped.
+  /// See mesh_parts.h.
   std::span<const int> one_of_each_part() const { return one_of_each_part_; }
 
   /// Prefetches what is known of a cluster's edges, facets and vertices.
@@ -85,7 +85,6 @@ class Features {
   void find_neighbors(const ClusteredMesh& mesh);
   void find_firsts(const ClusteredMesh& mesh);
   void find_facets_at(const ClusteredMesh& mesh);
-  void find_parts();
   void find_bare(const ClusteredMesh& mesh);
 
   std::vector<EdgeVertices> edges_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "narrowphase/distance/facet_distance.h"
 #include "narrowphase/distance/facet_facet.h"
@@ -109,31 +108,6 @@ std::optional<MeshDistance> least_distance(const ClusteredMesh& mesh, const Half
   }
   if (best) best->weight_a = weights_of_source(mesh, best->facet_a, best->weight_a);
   return best;
-}
-
-std::vector<int> one_of_each_part(const ClusteredMesh& mesh) {
-  std::vector<int> above(static_cast<std::size_t>(mesh.vertex_count()));
-  std::iota(above.begin(), above.end(), 0);
-  const auto root = [&](int v) {
-    while (above[static_cast<std::size_t>(v)] != v)
-      v = above[static_cast<std::size_t>(v)] = above[static_cast<std::size_t>(above[static_cast<std::size_t>(v)])];
-    return v;
-  };
-  for (int f = 0; f < mesh.facet_count(); ++f) {
-    const Corners corners = mesh.corners(f);
-    for (std::size_t k = 1; k < 3; ++k) above[static_cast<std::size_t>(root(corners[k]))] = root(corners[0]);
-  }
-  std::vector<int> parts;
-  for (int v = 0; v < mesh.vertex_count(); ++v) {
-    if (root(v) == v) parts.push_back(v);
-  }
-  return parts;
-}
-
-bool lies_inside(const ClusteredMesh& inner, const ClusteredMesh& outer) {
-  const Box &in = inner.box(), &out = outer.box();
-  if (in.empty() || !contains(out, in.lower) || !contains(out, in.upper)) return false;
-  return std::ranges::all_of(one_of_each_part(inner), [&](int v) { return contains(outer, inner.position(v)); });
 }
 
 }  // namespace tact::narrowphase

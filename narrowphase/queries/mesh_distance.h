@@ -3,7 +3,6 @@
 
 #include <array>
 #include <optional>
-#include <vector>
 
 #include "narrowphase/mesh/clustered_mesh.h"
 #include "narrowphase/plane/half_space.h"
@@ -21,11 +20,5 @@ std::optional<MeshDistance> least_distance(const ClusteredMesh& a, const Cluster
 
 /// The same of a mesh and a half-space, which is facet 0 of b and solid.
 std::optional<MeshDistance> least_distance(const ClusteredMesh& mesh, const HalfSpace& space, double within);
-
-/// A vertex of each part of a mesh that is connected by facets.
-std::vector<int> one_of_each_part(const ClusteredMesh& mesh);
-
-/// Whether a mesh lies wholly inside a closed one, whose surface it does not meet.
-bool lies_inside(const ClusteredMesh& inner, const ClusteredMesh& outer);
 
 }  // namespace tact::narrowphase

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "narrowphase/distance/facet_distance.h"
 #include "narrowphase/mesh/cluster_search.h"
+#include "narrowphase/mesh/mesh_parts.h"
 #include "narrowphase/mesh/open_in_box.h"
 #include "narrowphase/numeric/unit_scale.h"
 #include "narrowphase/queries/prepared_segment.h"
@@ -52,6 +54,15 @@ int turn(const Vec3& a, const Vec3& b, const Vec3& c, PredicateCounts& counts) {
   if (a.z != b.z) return a.z > b.z ? 1 : -1;
   if (a.y != b.y) return a.y < b.y ? 1 : -1;
   return 0;
+}
+
+bool is_box_in_box(const ClusteredMesh& inner, const ClusteredMesh& outer) {
+  const Box &in = inner.box(), &out = outer.box();
+  return !in.empty() && contains(out, in.lower) && contains(out, in.upper);
+}
+
+bool are_inside(const ClusteredMesh& mesh, std::span<const int> vertices, const ClusteredMesh& outer) {
+  return std::ranges::all_of(vertices, [&](int v) { return contains(outer, mesh.position(v)); });
 }
 
 }  // namespace
@@ -259,6 +270,14 @@ bool contains(const ClusteredMesh& mesh, Vec3 point) {
     }
   });
   return on_surface || winding != 0;
+}
+
+bool lies_inside(const ClusteredMesh& inner, const ClusteredMesh& outer) {
+  return is_box_in_box(inner, outer) && are_inside(inner, one_of_each_part(inner), outer);
+}
+
+bool lies_inside(const FeaturedMesh& inner, const ClusteredMesh& outer) {
+  return is_box_in_box(*inner.mesh, outer) && are_inside(*inner.mesh, inner.features->one_of_each_part(), outer);
 }
 
 }  // namespace tact::narrowphase

@@ -9,6 +9,7 @@
 
 #include "narrowphase/distance/vertex_facet.h"
 #include "narrowphase/mesh/clustered_mesh.h"
+#include "narrowphase/mesh/features.h"
 #include "narrowphase/queries/prepared_segment.h"
 
 namespace tact::narrowphase {
@@ -53,5 +54,10 @@ void append_facets_in_box(const ClusteredMesh& mesh, const Box& box, std::vector
 /// "Simulation of Simplicity", 1990), counts the facets that it leaves through minus those that it enters through.
 /// Where the mesh has holes the answer is that of some filling.
 bool contains(const ClusteredMesh& mesh, Vec3 point);
+
+/// Whether a mesh lies wholly inside a closed one, of which it meets no facets. Exact.
+bool lies_inside(const ClusteredMesh& inner, const ClusteredMesh& outer);
+/// The same of a mesh whose parts are known.
+bool lies_inside(const FeaturedMesh& inner, const ClusteredMesh& outer);
 
 }  // namespace tact::narrowphase

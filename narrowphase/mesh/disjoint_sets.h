@@ -19,6 +19,7 @@ inline void join_sets(std::vector<int>& parent, int one, int other) {
     for (; parent[v] != v; v = parent[v]) parent[v] = parent[parent[v]];
     return v;
   };
+  if (parent[one] == parent[other]) return;
   const auto [first, second] = std::minmax({least(one), least(other)});
   parent[second] = first;
 }
