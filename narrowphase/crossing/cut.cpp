@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "narrowphase/mesh/disjoint_sets.h"
 #include "narrowphase/queries/mesh_queries.h"
 
 namespace tact::narrowphase {
@@ -109,17 +108,16 @@ void Cut::leave_out(int vertex) {
   state(vertex) = kOutside;
 }
 
-void Cut::add_past(int vertex, int from_source_vertex) {
+void Cut::add_past(int vertex) {
   const int source = own_.mesh->source_vertex(vertex);
   if (state_[source] == kUnknown) touch(source);
   state_[source] = kPast;
   past_.push_back(vertex);
-  if (from_source_vertex >= 0) join_sets(parent_, source, from_source_vertex);
 }
 
 void Cut::flood_inside(int vertex) {
   const std::size_t first = past_.size();
-  add_past(vertex, -1);
+  add_past(vertex);
   for (std::size_t i = first; i < past_.size(); ++i) {
     const int from = past_[i];
     for (const int to : own_.features->neighbors(from)) {
@@ -127,7 +125,8 @@ void Cut::flood_inside(int vertex) {
       if (known != kUnknown && known != kRing) continue;
       // An edge that is cut has both ends in the ring.
       if (known == kRing && is_cut_between(from, to)) continue;
-      add_past(to, own_.mesh->source_vertex(from));
+      add_past(to);
+      join_patches(own_.mesh->source_vertex(to), own_.mesh->source_vertex(from));
     }
   }
 }

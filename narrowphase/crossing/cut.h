@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "narrowphase/crossing/edge_hits.h"
+#include "narrowphase/mesh/disjoint_sets.h"
 #include "narrowphase/mesh/features.h"
 
 namespace tact::narrowphase {
@@ -46,9 +47,10 @@ class Cut {
       }
     }
   }
-  /// Adds a vertex, by the mesh's number, that is beyond a surface without an inside, and its number of the caller to
-  /// the patch of another one, if that is not negative.
-  void add_past(int vertex, int from_source_vertex);
+  /// Adds a vertex, by the mesh's number, that is beyond a surface without an inside.
+  void add_past(int vertex);
+  /// Makes the patches of two vertices, by the caller's numbers, one.
+  void join_patches(int source_vertex, int other) { join_sets(parent_, source_vertex, other); }
 
   /// Sorted, each once.
   std::span<const EdgeHit> hits() const { return hits_; }

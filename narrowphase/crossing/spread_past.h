@@ -64,6 +64,7 @@ class SpreadPast {
     next_.clear();
     for (std::size_t i = 0; i < reached_.size();) {
       const ReachedVertex first = reached_[i];
+      const std::size_t begin = i;
       std::optional<NearestExit> best;
       for (; i < reached_.size() && reached_[i].source_vertex == first.source_vertex; ++i) {
         if (own.exits.find(first.source_vertex) != nullptr) continue;
@@ -72,7 +73,10 @@ class SpreadPast {
       }
       if (!best) continue;
       own.exits.add(first.source_vertex, *best);
-      if (!own.cut.is_past(first.source_vertex)) own.cut.add_past(first.vertex, first.from);
+      if (!own.cut.is_past(first.source_vertex)) own.cut.add_past(first.vertex);
+      for (std::size_t k = begin; k < i; ++k) {
+        if (reached_[k].from >= 0) own.cut.join_patches(first.source_vertex, reached_[k].from);
+      }
       next_.push_back(
           {first.source_vertex, first.vertex, first.from, surface.mesh.source_facet(best->facet), best->direction});
     }

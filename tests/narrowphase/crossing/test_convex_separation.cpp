@@ -45,7 +45,7 @@ class Remembering {
   ConvexSeparation with(std::vector<CarriedNormal> of_a, const std::vector<int>& past = {7}) {
     Cut& cut = crossing_.surfaces[0].cut;
     cut.begin({&a_, &of_a_}, {}, Cut::Which::a);
-    for (const int source : past) cut.add_past(of_a_.vertex_of_source(source), -1);
+    for (const int source : past) cut.add_past(of_a_.vertex_of_source(source));
     carried_ = std::move(of_a);
     crossing_.carried = {.of_a = carried_, .of_b = {}, .of_edges = {}};
     ConvexSeparation separation;
