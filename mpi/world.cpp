@@ -126,10 +126,12 @@ void World::Implementation::exclude_here(const ExcludedPair& pair, bool wanted) 
     parts.exclude(own, other, wanted);
 }
 
-// A body comes of the key of a ghost: its owner has removed that one, or the next call together refuses the key. If
-// add() fails the owner may have it still, and sends it anew.
-template <class Add>
-BodyId World::Implementation::add_in_place_of_ghost(std::uint64_t key, const Add& add) {
+// A body comes of the key of a ghost: its owner has removed that one, or the next call together refuses the key. A body
+// that is refused leaves the ghost; if add() fails otherwise the owner may have it still, and sends it anew.
+template <class Definition, class Add>
+BodyId World::Implementation::add_in_place_of_ghost(const Definition& definition, const Add& add) {
+  const std::uint64_t key = *definition.key;
+  if (held.ghosts.contains(key)) parts.check(definition);
   const bool was_ghost = forget_ghost(key);
   try {
     return add();
@@ -201,7 +203,7 @@ void World::add_body(const BodyDefinition& definition, Holders holders) {
   const bool is_shared = holders == Holders::every_rank;
   if (is_shared && definition.motion != Motion::fixed)
     refuse(ErrorCode::invalid_argument, key_text(key) + ": what every rank holds is fixed");
-  const BodyId id = i.add_in_place_of_ghost(key, [&] { return i.local.add_body(definition); });
+  const BodyId id = i.add_in_place_of_ghost(definition, [&] { return i.local.add_body(definition); });
   if (is_shared) return i.hold_shared(id, key, hash_of(definition));
   i.held.hold(id, {Held::Role::own, i.channel.rank(), i.order_of_new(id, key)});
   i.held.own[key] = {.id = id, .is_rigid = definition.motion == Motion::rigid};
@@ -211,7 +213,7 @@ void World::add_body(const BodyDefinition& definition, Holders holders) {
 void World::add_plane(const PlaneDefinition& definition) {
   Implementation& i = implementation();
   if (!definition.key) refuse_without_key();
-  const BodyId id = i.add_in_place_of_ghost(*definition.key, [&] { return i.local.add_plane(definition); });
+  const BodyId id = i.add_in_place_of_ghost(definition, [&] { return i.local.add_plane(definition); });
   i.hold_shared(id, *definition.key, hash_of(definition));
 }
 

@@ -123,8 +123,8 @@ struct World::Implementation {
   void hold_shared(BodyId id, std::uint64_t key, std::uint64_t hash);
   void note_change(OwnBody& body, bool has_moved);
   bool forget_ghost(std::uint64_t key);  // whether there was one
-  template <class Add>
-  BodyId add_in_place_of_ghost(std::uint64_t key, const Add& add);
+  template <class Definition, class Add>
+  BodyId add_in_place_of_ghost(const Definition& definition, const Add& add);
   void set_excluded(const ExcludedPair& pair, bool wanted);
   void exclude(const ExcludedPair& pair, bool wanted, bool marks);
   void exclude_here(const ExcludedPair& pair, bool wanted);

@@ -69,14 +69,34 @@ void Bodies::check_key(std::uint64_t key, const std::string& name) const {
                 quoted(name) + ": key " + std::to_string(key) + " is that of " + quoted(in_slot(*other).name));
 }
 
-BodyId Bodies::add(const BodyDefinition& definition, const std::function<void(const Body&)>& told) {
-  const std::uint32_t slot = next_slot();
-  const std::string name = definition.name.empty() ? "body " + std::to_string(slot) : definition.name;
+std::string Bodies::checked_name(const BodyDefinition& definition) const {
+  std::string name = name_of_next(definition.name);
   check_name(definition.surface, Surface::sheet, quoted(name) + ": surface");
   check_name(definition.motion, Motion::rigid, quoted(name) + ": motion");
   check_margin(definition.margin, name);
   check_rest_offset(definition.rest_offset, definition.margin, name);
   check_shape(arguments_of(definition), slots_.size(), name);
+  return name;
+}
+
+std::string Bodies::checked_name(const PlaneDefinition& definition) const {
+  std::string name = name_of_next(definition.name);
+  check_plane(definition.normal, definition.offset, name);
+  check_margin(definition.margin, name);
+  check_rest_offset(definition.rest_offset, definition.margin, name);
+  check_counts(0, 0, slots_.size(), name);
+  return name;
+}
+
+void Bodies::check(const BodyDefinition& definition) const {
+  GivenMesh(arguments_of(definition), checked_name(definition));
+}
+
+void Bodies::check(const PlaneDefinition& definition) const { checked_name(definition); }
+
+BodyId Bodies::add(const BodyDefinition& definition, const std::function<void(const Body&)>& told) {
+  const std::string name = checked_name(definition);
+  const std::uint32_t slot = next_slot();
   check_key(definition.key.value_or(slot), name);
   std::unique_ptr<Body> body = make_body(definition, name);
   body->id = id_of_next(slot);
@@ -85,22 +105,22 @@ BodyId Bodies::add(const BodyDefinition& definition, const std::function<void(co
 }
 
 BodyId Bodies::add(const PlaneDefinition& definition) {
+  const std::string name = checked_name(definition);
   const std::uint32_t slot = next_slot();
-  const std::string name = definition.name.empty() ? "body " + std::to_string(slot) : definition.name;
-  const Eigen::Vector3d& n = definition.normal;
-  check_plane(n, definition.offset, name);
-  check_margin(definition.margin, name);
-  check_rest_offset(definition.rest_offset, definition.margin, name);
-  check_counts(0, 0, slots_.size(), name);
   check_key(definition.key.value_or(slot), name);
   auto body = std::make_unique<Body>(Body{.mesh = {{}, {}},
                                           .id = id_of_next(slot),
                                           .name = name,
                                           .surface = Surface::closed,
                                           .external_id = definition.external_id});
+  const Eigen::Vector3d& n = definition.normal;
   body->plane =
       std::make_unique<const narrowphase::HalfSpace>(narrowphase::HalfSpace{{n.x(), n.y(), n.z()}, definition.offset});
   return add_made(std::move(body), definition, slot, Motion::fixed);
+}
+
+std::string Bodies::name_of_next(const std::string& given) const {
+  return given.empty() ? "body " + std::to_string(next_slot()) : given;
 }
 
 BodyId Bodies::id_of_next(std::uint32_t slot) const {

@@ -72,6 +72,9 @@ class Bodies {
   // Calls told(body) once the body has all but its place: what that throws comes out, and nothing has changed.
   BodyId add(const BodyDefinition& definition, const std::function<void(const Body&)>& told = {});
   BodyId add(const PlaneDefinition& definition);
+  // Refuses what add() would, but for its key.
+  void check(const BodyDefinition& definition) const;
+  void check(const PlaneDefinition& definition) const;
   void remove(BodyId id);
   void set_positions(std::span<const PositionsUpdate> updates, int threads);
   void set_positions(BodyId id, const Positions& positions, int threads);
@@ -281,6 +284,10 @@ class Bodies {
     std::uint64_t birth;
     std::uint32_t slot, generation;
   };
+  // Errors: those of add(), but for the key and what the mesh holds. Returns the name that a body will have.
+  std::string checked_name(const BodyDefinition& definition) const;
+  std::string checked_name(const PlaneDefinition& definition) const;
+  std::string name_of_next(const std::string& given) const;
   void check_key(std::uint64_t key, const std::string& name) const;
   template <class Definition>
   BodyId add_made(std::unique_ptr<Body> body, const Definition& definition, std::uint32_t slot, Motion motion);

@@ -10,6 +10,7 @@
 #include "engine/state/archives.h"
 #include "engine/state/pair_state.h"
 #include "engine/state/world_state.h"
+#include "engine/with_memory.h"
 #include "narrowphase/mesh/source_mesh.h"
 
 namespace tact {
@@ -359,6 +360,10 @@ void WorldParts::remove_copy(BodyId body) {
   forget_ways();
   StateFields::remove_copy(body, bodies_);
 }
+void WorldParts::check(const BodyDefinition& definition) const {
+  with_memory("adding a body ran out of memory", [&] { bodies_.check(definition); });
+}
+void WorldParts::check(const PlaneDefinition& definition) const { bodies_.check(definition); }
 void WorldParts::set_birth(BodyId body, std::uint64_t birth) { StateFields::set_birth(body, birth, bodies_); }
 void WorldParts::mark_moved(BodyId body, bool is_on_its_way) {
   forget_ways();

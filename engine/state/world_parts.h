@@ -76,6 +76,9 @@ class TACT_API WorldParts {
   /// The facets of a body in their order, and all else of it.
   StateBytes shape(BodyId body) const;
   StateBytes rest(BodyId body) const;
+  /// Refuses what World::add_body() and add_plane() would, but for the key.
+  void check(const BodyDefinition& definition) const;
+  void check(const PlaneDefinition& definition) const;
   /// Puts a body in as it was. A copy is tested against no body by itself. Errors: bad_state, too_large.
   BodyId put(std::span<const std::byte> shape, std::span<const std::byte> rest, bool is_copy);
   /// Takes bodies out, and all that is kept of them, as if they had never been there.

@@ -311,7 +311,8 @@ void wrong_use(Size) {
                 "bad_settings: rebalance_above is 0.500000, not 0 or at least 1");
 }
 
-// A body that is refused, of the key of a copy that is here: its owner sends the copy anew.
+// A body that is refused, of the key of a copy that is here: the copy stays. Where a message throws its owner sends it
+// anew.
 void refused_additions(Size) {
   mpi::World world(MPI_COMM_WORLD, {.world = {.outputs = {.points = true}, .on_message = [](const Message&) {
                                                 throw std::runtime_error("not this one");
@@ -332,7 +333,7 @@ void refused_additions(Size) {
     const std::string found = caught([&] { world.add_body({.positions = flat, .facets = mesh.facets, .key = key}); });
     expect(found.starts_with("wrong_size"), "a flat matrix was taken: " + found);
     move(0.01);
-    world.detect();
+    expect(world.detect().stats().shape_bytes == 0, "a refused body cost a copy");
     try {
       world.add_body(definition_of(open, key, 0.0));
       expect(false, "what a message threw did not come out");
