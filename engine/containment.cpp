@@ -5,15 +5,6 @@
 
 namespace tact {
 
-namespace {
-
-bool is_in_box(const Body& inner, const Body& outer) {
-  const base::Box &in = inner.mesh.box(), &out = outer.mesh.box();
-  return !in.empty() && contains(out, in.lower) && contains(out, in.upper);
-}
-
-}  // namespace
-
 void ContainmentStage::run(std::span<const MovedPair> moved, Bodies& bodies, const Settings& settings) {
   if (settings.accuracy == Accuracy::hulls) return;
   wanted_.clear();
@@ -23,7 +14,7 @@ void ContainmentStage::run(std::span<const MovedPair> moved, Bodies& bodies, con
     const std::uint32_t a = pair.record->a.index, b = pair.record->b.index;
     const auto want = [&](std::uint32_t inner, std::uint32_t outer, Containment containment) {
       if (!bodies.in_slot(outer).has_inside) return;
-      if (!is_in_box(bodies.in_slot(inner), bodies.in_slot(outer))) return;
+      if (!lies_in(bodies.in_slot(inner).mesh.box(), bodies.in_slot(outer).mesh.box())) return;
       wanted_.push_back({pair.record, inner, outer, containment});
       slots_.push_back(inner);
     };

@@ -50,6 +50,10 @@ inline Box grown(const Box& box, double by) {
 inline Box extended(const Box& box, Vec3 p) { return merged(box, {p, p}); }
 
 inline bool contains(const Box& box, Vec3 p) { return overlaps(box, {p, p}); }
+/// Whether a box that is not empty lies in another one.
+inline bool lies_in(const Box& inner, const Box& box) {
+  return !inner.empty() && contains(box, inner.lower) && contains(box, inner.upper);
+}
 
 /// How far what is in the box is from a point at most, along each axis.
 inline Vec3 farthest_from(Vec3 p, const Box& box) {

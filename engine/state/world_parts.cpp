@@ -361,9 +361,13 @@ void WorldParts::remove_copy(BodyId body) {
   StateFields::remove_copy(body, bodies_);
 }
 void WorldParts::check(const BodyDefinition& definition) const {
+  const base::FloatingPointMode mode;
   with_memory("adding a body ran out of memory", [&] { bodies_.check(definition); });
 }
-void WorldParts::check(const PlaneDefinition& definition) const { bodies_.check(definition); }
+void WorldParts::check(const PlaneDefinition& definition) const {
+  const base::FloatingPointMode mode;
+  with_memory("adding a plane ran out of memory", [&] { bodies_.check(definition); });
+}
 void WorldParts::set_birth(BodyId body, std::uint64_t birth) { StateFields::set_birth(body, birth, bodies_); }
 void WorldParts::mark_moved(BodyId body, bool is_on_its_way) {
   forget_ways();

@@ -76,7 +76,7 @@ class TACT_API WorldParts {
   /// The facets of a body in their order, and all else of it.
   StateBytes shape(BodyId body) const;
   StateBytes rest(BodyId body) const;
-  /// Refuses what World::add_body() and add_plane() would, but for the key.
+  /// Errors: those of World::add_body() and add_plane(), but for the key.
   void check(const BodyDefinition& definition) const;
   void check(const PlaneDefinition& definition) const;
   /// Puts a body in as it was. A copy is tested against no body by itself. Errors: bad_state, too_large.

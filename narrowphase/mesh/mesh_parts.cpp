@@ -14,7 +14,8 @@ std::vector<int> one_of_each_part(const ClusteredMesh& mesh, std::span<const Edg
   std::vector<int> parts;
   std::vector<int> first(parent.size(), -1);  // of each set
   for (int v = 0; v < mesh.vertex_count(); ++v) {
-    int& known = first[least_of_set(parent, v)];
+    parent[v] = parent[parent[v]];  // the least of the set, as that of lesser numbers is known
+    int& known = first[parent[v]];
     if (known < 0 || mesh.source_vertex(v) < mesh.source_vertex(known)) known = v;
     if (parent[v] == v) parts.push_back(v);
   }

@@ -56,11 +56,6 @@ int turn(const Vec3& a, const Vec3& b, const Vec3& c, PredicateCounts& counts) {
   return 0;
 }
 
-bool is_box_in_box(const ClusteredMesh& inner, const ClusteredMesh& outer) {
-  const Box &in = inner.box(), &out = outer.box();
-  return !in.empty() && contains(out, in.lower) && contains(out, in.upper);
-}
-
 bool are_inside(const ClusteredMesh& mesh, std::span<const int> vertices, const ClusteredMesh& outer) {
   return std::ranges::all_of(vertices, [&](int v) { return contains(outer, mesh.position(v)); });
 }
@@ -273,11 +268,11 @@ bool contains(const ClusteredMesh& mesh, Vec3 point) {
 }
 
 bool lies_inside(const ClusteredMesh& inner, const ClusteredMesh& outer) {
-  return is_box_in_box(inner, outer) && are_inside(inner, one_of_each_part(inner), outer);
+  return lies_in(inner.box(), outer.box()) && are_inside(inner, one_of_each_part(inner), outer);
 }
 
 bool lies_inside(const FeaturedMesh& inner, const ClusteredMesh& outer) {
-  return is_box_in_box(*inner.mesh, outer) && are_inside(*inner.mesh, inner.features->one_of_each_part(), outer);
+  return lies_in(inner.mesh->box(), outer.box()) && are_inside(*inner.mesh, inner.features->one_of_each_part(), outer);
 }
 
 }  // namespace tact::narrowphase
