@@ -54,7 +54,7 @@ FclTriangle to_fcl(const Triangle& t) {
           fcl::Vector3d(t[2].x, t[2].y, t[2].z)};
 }
 
-std::vector<Triangle> triangles_of(const TruthMesh& mesh) {
+std::vector<Triangle> triangles_of(const Mesh& mesh) {
   std::vector<Triangle> triangles;
   for (const auto f : mesh.facets.colwise()) {
     const auto corner = [&](int k) {
@@ -69,7 +69,7 @@ std::vector<Triangle> triangles_of(const TruthMesh& mesh) {
 base::Box box_of(const Triangle& t) { return base::extended(base::extended(base::Box{t[0], t[0]}, t[1]), t[2]); }
 
 // What a triangle test is asked about: the pairs of facets whose boxes overlap.
-void add_box_pairs(const TruthMesh& a, const TruthMesh& b, std::vector<TestPair>& pairs) {
+void add_box_pairs(const Mesh& a, const Mesh& b, std::vector<TestPair>& pairs) {
   const std::vector<Triangle> of_a = triangles_of(a), of_b = triangles_of(b);
   for (const Triangle& s : of_a) {
     for (const Triangle& t : of_b) {
@@ -84,7 +84,7 @@ PairSet frames_of(std::string name, const Workload& workload) {
   PairSet set{std::move(name), {}};
   for (int frame = 0; frame < workload.frames; ++frame) {
     const auto mesh = [&](std::size_t body) {
-      return TruthMesh{workload.bodies[body].positions(frame), workload.bodies[body].facets};
+      return Mesh{workload.bodies[body].positions(frame), workload.bodies[body].facets};
     };
     add_box_pairs(mesh(0), mesh(1), set.pairs);
   }

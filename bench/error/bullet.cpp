@@ -25,7 +25,7 @@ struct Body {
   btTransform transform = btTransform::getIdentity();
   btVector3 center{0, 0, 0};
 
-  explicit Body(const TruthMesh& mesh)
+  explicit Body(const Mesh& mesh)
       : shape(std::make_unique<btConvexHullShape>()), center(to_bullet(mesh.positions.rowwise().mean())) {
     for (const auto p : mesh.positions.colwise()) shape->addPoint(to_bullet(p), false);
     shape->recalcLocalAabb();

@@ -9,7 +9,7 @@
 namespace tact::bench {
 namespace {
 
-std::shared_ptr<fcl::Convexd> convex(const TruthMesh& mesh) {
+std::shared_ptr<fcl::Convexd> convex(const Mesh& mesh) {
   const auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
   for (const auto p : mesh.positions.colwise()) vertices->push_back(p);
   const auto faces = std::make_shared<std::vector<int>>();

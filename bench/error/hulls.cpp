@@ -13,12 +13,12 @@ constexpr double kGrain = 0x1p-40;
 constexpr double kStart = -0.02;
 constexpr double kEnd = 0.2;
 
-TruthMesh snapped(TruthMesh mesh) {
+Mesh snapped(Mesh mesh) {
   mesh.positions = (mesh.positions / kGrain).array().round() * kGrain;
   return mesh;
 }
 
-using MakeHull = std::function<TruthMesh(StabilityRandom&)>;
+using MakeHull = std::function<Mesh(StabilityRandom&)>;
 
 // How far b must be shifted along `along` to make the smallest separation `depth`, or 0 if it is smaller from the
 // start.
@@ -33,8 +33,8 @@ double shift_to_depth(const MinkowskiFaces& faces, const Eigen::Vector3d& along,
 
 // b comes towards a along a random direction, and slides a little across it.
 HullPair pair_of(const MakeHull& make, int frames, StabilityRandom& random) {
-  const TruthMesh a = snapped(make(random)), b = snapped(make(random));
-  HullPair pair{a, b, {}, TrueHeight(a, b), MinkowskiFaces(a, b)};
+  const Mesh a = snapped(make(random)), b = snapped(make(random));
+  HullPair pair{a, b, {}, height_of(a, b), MinkowskiFaces(a, b)};
   const double size = pair.height.size();
   const Eigen::Vector3d along = random.direction();
   const Eigen::Vector3d across = 0.02 * size * along.cross(random.direction());
@@ -47,12 +47,12 @@ HullPair pair_of(const MakeHull& make, int frames, StabilityRandom& random) {
   return pair;
 }
 
-TruthMesh aligned_box(StabilityRandom& random) {
+Mesh aligned_box(StabilityRandom& random) {
   const Eigen::Vector3d half(0.25 * (1 + random.below(4)), 0.25 * (1 + random.below(4)), 0.25 * (1 + random.below(4)));
   return box_shape(-half, half);
 }
 
-TruthMesh rotated_box(StabilityRandom& random) { return rotated(aligned_box(random), random.rotation()); }
+Mesh rotated_box(StabilityRandom& random) { return rotated(aligned_box(random), random.rotation()); }
 
 HullRow row(const char* name, int pairs, int frames, std::uint64_t seed, const MakeHull& make) {
   HullRow result{name, frames, {}};

@@ -12,12 +12,12 @@ namespace tact::bench {
 // All coordinates are multiples of 2^-40 below 16 in size, so that a shift by a step or by a small whole number is
 // exact.
 struct HullPair {
-  TruthMesh a;  // vertices and facets of a convex hull
-  TruthMesh b;
+  Mesh a;  // vertices and facets of a convex hull
+  Mesh b;
   // Shifts of b, one a frame: in the first the hulls are apart by a fiftieth of the pair's size; then the second sinks
   // in, until the smallest separation is a fifth of it or the two are concentric.
   std::vector<Eigen::Vector3d> path;
-  TrueHeight height;  // without a shift
+  MinkowskiHeight height;  // without a shift
   MinkowskiFaces faces;
 };
 

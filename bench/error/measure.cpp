@@ -6,6 +6,7 @@
 
 #include "bench/measure.h"
 #include "engine/base/timer.h"
+#include "engine/eigen_vectors.h"
 
 namespace tact::bench {
 namespace {
@@ -22,7 +23,7 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 }  // namespace
 
-void HullErrors::judge(const HullAnswer& answer, Minimum minimum, const MinkowskiFaces& faces, const TrueHeight& w,
+void HullErrors::judge(const HullAnswer& answer, Minimum minimum, const MinkowskiFaces& faces, const MinkowskiHeight& w,
                        const Eigen::Vector3d& shift, ErrorResult& result) {
   const double size = w.size();
   const MinkowskiFaces::Smallest smallest = faces.smallest(shift, kTie * size);
@@ -37,7 +38,7 @@ void HullErrors::judge(const HullAnswer& answer, Minimum minimum, const Minkowsk
     MinkowskiFaces::Nearest truth{smallest.directions.front(), smallest.height};
     if (minimum == Minimum::local) {
       truth = faces.nearest(n, shift);
-      if (!w.is_local_minimum(n, kMinimumTolerance * size, shift)) ++result.failed;
+      if (!w.is_local_minimum(from_eigen(n), kMinimumTolerance * size, from_eigen(shift))) ++result.failed;
     } else {
       truth.direction =
           *std::ranges::min_element(smallest.directions, {}, [&](const auto& m) { return (m - n).norm(); });

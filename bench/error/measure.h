@@ -33,7 +33,7 @@ class HullErrors {
  public:
   // `answer` against the smallest or the nearest minimum of w, where the second body is shifted by `shift`. Counts it
   // in `result` as a query, unless the hulls touch or nearly do.
-  void judge(const HullAnswer& answer, Minimum minimum, const MinkowskiFaces& faces, const TrueHeight& w,
+  void judge(const HullAnswer& answer, Minimum minimum, const MinkowskiFaces& faces, const MinkowskiHeight& w,
              const Eigen::Vector3d& shift, ErrorResult& result);
   void summarize(ErrorResult& result) const;
 

@@ -6,13 +6,15 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "tests/support/oracles/facet_pair_oracle.h"
+
 namespace tact::bench {
 namespace {
 
-TruthMesh mesh_of(const WorkloadBody& body, int frame) { return {body.positions(frame), body.facets}; }
+Mesh mesh_of(const WorkloadBody& body, int frame) { return {body.positions(frame), body.facets}; }
 
 // Thinner than 1e-6 of its size in some direction.
-bool is_flat(const TruthMesh& mesh) {
+bool is_flat(const Mesh& mesh) {
   const Eigen::Matrix3Xd centered = mesh.positions.colwise() - mesh.positions.rowwise().mean();
   const Eigen::Matrix3d moments = centered * centered.transpose();
   return moments.determinant() <= 1e-12 * std::pow(moments.trace(), 3.0);
@@ -21,11 +23,11 @@ bool is_flat(const TruthMesh& mesh) {
 MeshRow row_of(std::string name, Workload workload) {
   MeshRow row{std::move(name), std::move(workload), {}, {}};
   for (int frame = 0; frame < row.workload.frames; ++frame) {
-    const TruthMesh a = mesh_of(row.workload.bodies[0], frame), b = mesh_of(row.workload.bodies[1], frame);
+    const Mesh a = mesh_of(row.workload.bodies[0], frame), b = mesh_of(row.workload.bodies[1], frame);
     row.meetings.emplace_back();
-    for (const FacetPair& pair : true_facet_pairs(a, b)) row.meetings.back().push_back({0, 1, pair.a, pair.b});
+    for (const FacetPair& pair : facet_pairs_by_oracle(a, b)) row.meetings.back().push_back({0, 1, pair.a, pair.b});
     row.hulls.emplace_back();
-    if (!is_flat(a) && !is_flat(b)) row.hulls.back() = {TrueHeight(a, b), MinkowskiFaces(a, b)};
+    if (!is_flat(a) && !is_flat(b)) row.hulls.back() = {height_of(a, b), MinkowskiFaces(a, b)};
   }
   return row;
 }
@@ -76,7 +78,7 @@ class CgalExact : public Rival {
   explicit CgalExact(const Workload& workload) : workload_(workload) {}
 
   void step(int frame) override {
-    found_ = true_facet_pairs(mesh_of(workload_.bodies[0], frame), mesh_of(workload_.bodies[1], frame));
+    found_ = facet_pairs_by_oracle(mesh_of(workload_.bodies[0], frame), mesh_of(workload_.bodies[1], frame));
   }
 
   std::vector<FacetMeeting> meetings() const override {

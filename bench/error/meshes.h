@@ -20,7 +20,7 @@ struct MeshRow {
   std::vector<std::vector<FacetMeeting>> meetings;
   // Nothing where one of the two hulls is flat.
   struct Hulls {
-    TrueHeight height;
+    MinkowskiHeight height;
     MinkowskiFaces faces;
   };
   std::vector<std::optional<Hulls>> hulls;

@@ -12,6 +12,7 @@
 #include "bench/stability/shapes.h"
 #include "bench/table.h"
 #include "bench/workloads/workloads.h"
+#include "tests/support/oracles/facet_pair_oracle.h"
 
 namespace tact::bench {
 namespace {
@@ -38,7 +39,7 @@ void count(const RecallCase& c, Accuracy accuracy, Found& sum) {
   for (const StabilityBody& body : c.bodies) {
     world.add_body({.positions = body.mesh.positions, .facets = body.mesh.facets, .surface = body.surface});
   }
-  const std::vector<FacetPair> expected = true_facet_pairs(c.bodies[0].mesh, c.bodies[1].mesh);
+  const std::vector<FacetPair> expected = facet_pairs_by_oracle(c.bodies[0].mesh, c.bodies[1].mesh);
   std::vector<FacetPair> found;
   for (const Contact& contact : world.detect().contacts()) {
     found.assign(contact.facet_pairs().begin(), contact.facet_pairs().end());
@@ -76,10 +77,10 @@ RecallKind frames_of(std::string name, const Workload& workload) {
 // Two jaws and a back, with a slab between the jaws that is thicker than the gap: held from two opposite sides.
 RecallCase clamp(StabilityRandom& random) {
   const double gap = random.uniform(0.2, 0.4), slab = gap + random.uniform(0.01, 0.05);
-  TruthMesh jaws = box_shape({-1.0, -0.5, 0.5 * gap}, {1.0, 0.5, 0.5 * gap + 0.4});
+  Mesh jaws = box_shape({-1.0, -0.5, 0.5 * gap}, {1.0, 0.5, 0.5 * gap + 0.4});
   jaws = joined(jaws, box_shape({-1.0, -0.5, -0.5 * gap - 0.4}, {1.0, 0.5, -0.5 * gap}));
   jaws = joined(jaws, box_shape({-1.2, -0.5, -0.5 * gap - 0.4}, {-1.0, 0.5, 0.5 * gap + 0.4}));
-  TruthMesh held = moved(stretched(ball_shape(2), {0.9, 0.4, 0.5 * slab}), {random.uniform(0.2, 0.6), 0.0, 0.0});
+  Mesh held = moved(stretched(ball_shape(2), {0.9, 0.4, 0.5 * slab}), {random.uniform(0.2, 0.6), 0.0, 0.0});
   return {{{jaws}, {held}}};
 }
 
@@ -87,7 +88,7 @@ RecallCase clamp(StabilityRandom& random) {
 RecallCase spike(StabilityRandom& random) {
   const Eigen::Vector3d tip(0.0, 0.0, -random.uniform(0.1, 0.5));
   const Eigen::Vector3d p(0.05, 0.0, 1.0), q(-0.03, 0.05, 1.0), r(-0.03, -0.05, 1.0);
-  TruthMesh mesh;
+  Mesh mesh;
   mesh.positions.resize(3, 4);
   mesh.positions << tip, p, q, r;
   mesh.facets.resize(3, 4);
@@ -110,7 +111,7 @@ std::vector<RecallKind> recall_kinds(bool quick) {
            }),
       kind("boxes, turned", cases,
            [](StabilityRandom& r) {
-             const TruthMesh box = box_shape({-1, -1, -1}, {1, 1, 1});
+             const Mesh box = box_shape({-1, -1, -1}, {1, 1, 1});
              return RecallCase{{{box}, {moved(rotated(box, r.rotation()), 1.2 * shallow(r))}}};
            }),
       kind("lumps", cases,

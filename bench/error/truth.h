@@ -1,5 +1,5 @@
-// What is true of two bodies, by slow means that share no code with the engine: facet pairs by CGAL's exact predicates,
-// heights of the Minkowski difference in long double, its smallest height over all of its faces.
+// What is true of two bodies, by slow means that share no code with the engine: how sets of facet pairs differ, and the
+// heights of the Minkowski difference over all of its faces.
 #pragma once
 
 #include <tact/facet_pair.h>
@@ -7,17 +7,13 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "tests/support/mesh.h"
+#include "tests/support/oracles/minkowski_oracle.h"
+
 namespace tact::bench {
 
-// A triangle mesh: 3 x V metres, 3 x F indices of vertices.
-struct TruthMesh {
-  Eigen::Matrix3Xd positions{3, 0};
-  Eigen::Matrix3Xi facets{3, 0};
-};
-
-// The facets of a and of b that share at least one point, sorted. A facet without area is the segment or point that it
-// is.
-std::vector<FacetPair> true_facet_pairs(const TruthMesh& a, const TruthMesh& b);
+using tests::Mesh;
+using tests::MinkowskiHeight;
 
 // How many of `expected` are missing from `found`, and how many of `found` are not expected. Both sorted.
 struct SetDifference {
@@ -27,32 +23,14 @@ struct SetDifference {
 };
 SetDifference difference(const std::vector<FacetPair>& expected, const std::vector<FacetPair>& found);
 
-// The overlap w(n) of the convex hulls of two meshes, whose facets' vertices alone count. Both must have a facet.
-class TrueHeight {
- public:
-  TrueHeight(const TruthMesh& a, const TruthMesh& b);
-
-  // w(n / |n|), metres, with the second body shifted by `shift`. n need not be of unit length and must not be zero.
-  long double operator()(const Eigen::Vector3d& n, const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const;
-  // The largest edge of the box around both, metres; 0 if all vertices are one point.
-  double size() const { return size_; }
-  // Do 16 turns of n by each of 1e-2, 1e-3, … 1e-7 radians lower w by no more than `tolerance`?
-  bool is_local_minimum(const Eigen::Vector3d& n, double tolerance,
-                        const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const;
-
- private:
-  using Points = Eigen::Matrix<long double, 3, Eigen::Dynamic>;
-  long double height(const Eigen::Matrix<long double, 3, 1>& n, const Eigen::Vector3d& shift) const;
-
-  Points a_, b_;  // less the first vertex of a
-  double size_ = 0.0;
-};
+// The overlap of the convex hulls of two meshes, whose facets' vertices alone count. Both must have a facet.
+MinkowskiHeight height_of(const Mesh& a, const Mesh& b);
 
 // The faces of the Minkowski difference of two solid hulls, found among all facets of both and all pairs of edges whose
 // arcs of normals cross. They stay the faces, with the same normals, while the second body is only shifted.
 class MinkowskiFaces {
  public:
-  MinkowskiFaces(const TruthMesh& a, const TruthMesh& b);
+  MinkowskiFaces(const Mesh& a, const Mesh& b);
 
   // The smallest w over all directions, with the second body shifted by `shift`, and the normals whose w is that but
   // for `tie`: where the difference holds the origin. If it does not, some w < 0.
@@ -78,6 +56,6 @@ class MinkowskiFaces {
 };
 
 // The vertices and facets of the convex hull of a mesh that is not flat.
-TruthMesh convex_hull(const TruthMesh& mesh);
+Mesh convex_hull(const Mesh& mesh);
 
 }  // namespace tact::bench

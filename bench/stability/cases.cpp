@@ -66,14 +66,14 @@ double large_aspect(StabilityRandom& random) { return std::pow(10.0, 3 + random.
 StabilityCase needles(std::uint64_t seed) {
   StabilityRandom random(seed);
   const double aspect = large_aspect(random);
-  const TruthMesh a = needle_shape(8, aspect, random);
+  const Mesh a = needle_shape(8, aspect, random);
   return {{{a, Surface::sheet}, {random.below(2) ? ball_shape(0) : needle_shape(8, aspect, random), Surface::sheet}}};
 }
 
 StabilityCase slivers(std::uint64_t seed) {
   StabilityRandom random(seed);
   const double aspect = large_aspect(random);
-  const TruthMesh a = sliver_shape(8, aspect, random);
+  const Mesh a = sliver_shape(8, aspect, random);
   return {{{a, Surface::sheet}, {random.below(2) ? ball_shape(0) : sliver_shape(8, aspect, random), Surface::sheet}}};
 }
 
@@ -83,8 +83,8 @@ StabilityCase slender_bodies(std::uint64_t seed) {
   StabilityCase c = ordinary(random);
   for (StabilityBody& body : c.bodies) {
     const double thin = 1.0 / large_aspect(random);
-    const Vector3d factors = random.below(2) ? Vector3d{1.0, thin, thin} : Vector3d{1.0, 1.0, thin};
-    body.mesh = rotated(stretched(body.mesh, factors), random.rotation());
+    body.mesh = stretched(body.mesh, {1.0, random.below(2) ? thin : 1.0, thin});
+    body.mesh = rotated(body.mesh, random.rotation());
     if (random.below(3) == 0) break;
   }
   return c;
@@ -115,7 +115,7 @@ StabilityCase identical(std::uint64_t seed) {
   StabilityRandom random(seed);
   StabilityCase c = ordinary(random);
   c.bodies[1] = c.bodies[0];
-  if (random.below(2)) c.bodies[1].mesh = inside_out(c.bodies[1].mesh);
+  if (random.below(2)) c.bodies[1].mesh = turned_inside_out(c.bodies[1].mesh);
   c.hulls_overlap = true;
   return c;
 }
@@ -145,10 +145,10 @@ StabilityCase stacked_boxes(std::uint64_t seed) {
 StabilityCase nested(std::uint64_t seed) {
   StabilityRandom random(seed);
   const double inner = std::pow(10.0, -random.below(7));
-  const TruthMesh shell = random.below(2) ? ball_shape(2) : box_shape({-1, -1, -1}, {1, 1, 1});
-  const TruthMesh core = random.below(2) ? ball_shape(1) : box_shape({-1, -1, -1}, {1, 1, 1});
+  const Mesh shell = random.below(2) ? ball_shape(2) : box_shape({-1, -1, -1}, {1, 1, 1});
+  const Mesh core = random.below(2) ? ball_shape(1) : box_shape({-1, -1, -1}, {1, 1, 1});
   const double room = 0.55 - 0.55 * inner;
-  StabilityCase c{{{shell}, {moved(stretched(core, 0.5 * inner * Vector3d::Ones()), random.in_cube(0.5 * room))}}};
+  StabilityCase c{{{shell}, {moved(scaled(core, 0.5 * inner), random.in_cube(0.5 * room))}}};
   c.hulls_overlap = true;
   return c;
 }
@@ -173,7 +173,7 @@ StabilityCase repeated_vertices(std::uint64_t seed) {
   StabilityRandom random(seed);
   StabilityCase c = ordinary(random);
   for (StabilityBody& body : c.bodies) {
-    TruthMesh& mesh = body.mesh;
+    Mesh& mesh = body.mesh;
     const Eigen::Index count = mesh.positions.cols();
     mesh.positions.conservativeResize(3, 2 * count);
     mesh.positions.rightCols(count) = mesh.positions.leftCols(count);
@@ -192,7 +192,7 @@ StabilityCase unused_vertices(std::uint64_t seed) {
   StabilityRandom random(seed);
   StabilityCase c = ordinary(random);
   for (StabilityBody& body : c.bodies) {
-    TruthMesh spare;
+    Mesh spare;
     spare.positions.resize(3, 5);
     for (auto p : spare.positions.colwise()) p = std::pow(10.0, random.below(12)) * random.direction();
     body.mesh = joined(spare, body.mesh);
@@ -203,8 +203,8 @@ StabilityCase unused_vertices(std::uint64_t seed) {
 StabilityCase inside_out_bodies(std::uint64_t seed) {
   StabilityRandom random(seed);
   StabilityCase c = ordinary(random);
-  c.bodies[0].mesh = inside_out(c.bodies[0].mesh);
-  if (random.below(2)) c.bodies[1].mesh = inside_out(c.bodies[1].mesh);
+  c.bodies[0].mesh = turned_inside_out(c.bodies[0].mesh);
+  if (random.below(2)) c.bodies[1].mesh = turned_inside_out(c.bodies[1].mesh);
   return c;
 }
 
@@ -236,7 +236,7 @@ StabilityCase sudden_teleports(std::uint64_t seed) {
   for (int step = 0; step < 12; ++step) {
     std::vector<Matrix3Xd> moves(2);
     for (std::size_t i = 0; i < 2; ++i) {
-      const TruthMesh& mesh = home[i].mesh;
+      const Mesh& mesh = home[i].mesh;
       switch (random.below(4)) {
         case 0: break;
         case 1: moves[i] = mesh.positions; break;
@@ -315,7 +315,7 @@ StabilityCase beyond_float_boxes(std::uint64_t seed) {
   StabilityRandom random(seed);
   StabilityCase c = ordinary(random);
   if (random.below(2)) {
-    const TruthMesh lump = lumpy_shape(4, 0.4, random);
+    const Mesh lump = lumpy_shape(4, 0.4, random);
     c = {{{lump}, {moved(lumpy_shape(4, 0.4, random), 0.7 * random.direction())}}};
   }
   constexpr int kExponents[] = {18, 19, 30, 38, 39, 60, 85};
@@ -340,12 +340,12 @@ StabilityCase whole_numbers(std::uint64_t seed) {
   };
   const auto body = [&]() -> StabilityBody {
     if (random.below(2)) {
-      TruthMesh soup;
+      Mesh soup;
       for (int f = 0; f < 12; ++f)
         soup = joined(soup, triangle_shape(lattice_point(2), lattice_point(2), lattice_point(2)));
       return {soup, Surface::sheet};
     }
-    TruthMesh octahedron;
+    Mesh octahedron;
     octahedron.positions.resize(3, 6);
     octahedron.positions << 2, -2, 0, 0, 0, 0, 0, 0, 2, -2, 0, 0, 0, 0, 0, 0, 2, -2;
     octahedron.facets.resize(3, 8);
@@ -360,7 +360,7 @@ StabilityCase whole_numbers(std::uint64_t seed) {
 StabilityCase several_at_once(std::uint64_t seed) {
   StabilityRandom random(seed);
   StabilityCase c = random.below(2) ? ordinary(random) : slender_bodies(seed);
-  if (random.below(2)) c.bodies[1].mesh = joined(c.bodies[1].mesh, inside_out(c.bodies[1].mesh));
+  if (random.below(2)) c.bodies[1].mesh = joined(c.bodies[1].mesh, turned_inside_out(c.bodies[1].mesh));
   if (random.below(2)) c.bodies[0].mesh = joined(c.bodies[0].mesh, stretched(c.bodies[0].mesh, {1.0, 0.0, 1.0}));
   if (random.below(2)) {
     const double factor = std::pow(10.0, -random.below(9));
@@ -379,11 +379,11 @@ StabilityCase several_at_once(std::uint64_t seed) {
 StabilityCase large_rough_bodies(std::uint64_t seed) {
   StabilityRandom random(seed);
   const auto rough = [&](double radius) {
-    TruthMesh mesh = ball_shape(seed % 4 == 0 ? 6 : 5);
+    Mesh mesh = ball_shape(seed % 4 == 0 ? 6 : 5);
     for (auto p : mesh.positions.colwise()) p *= radius + random.uniform(-0.2, 0.2);
     return mesh;
   };
-  const TruthMesh inner = rough(0.95);
+  const Mesh inner = rough(0.95);
   StabilityCase c{{{rough(1.0)}, {inner}}};
   if (seed % 8 == 4) scale(c, 1e30);
   return c;

@@ -13,7 +13,7 @@
 namespace tact::bench {
 
 struct StabilityBody {
-  TruthMesh mesh;
+  Mesh mesh;
   Surface surface = Surface::closed;
 };
 

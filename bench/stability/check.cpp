@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "bench/stability/shapes.h"
+#include "engine/eigen_vectors.h"
+#include "tests/support/oracles/facet_pair_oracle.h"
 
 namespace tact::bench {
 namespace {
@@ -35,12 +37,12 @@ void note(StabilityFailures& failures, int StabilityFailures::*kind, const std::
 
 // The truth about the positions of one step.
 struct Truth {
-  std::vector<TruthMesh> meshes;
+  std::vector<Mesh> meshes;
   std::map<std::pair<std::size_t, std::size_t>, std::vector<FacetPair>> pairs;
 
-  explicit Truth(std::vector<TruthMesh> bodies) : meshes(std::move(bodies)) {
+  explicit Truth(std::vector<Mesh> bodies) : meshes(std::move(bodies)) {
     for (std::size_t i = 0; i < meshes.size(); ++i) {
-      for (std::size_t j = i + 1; j < meshes.size(); ++j) pairs[{i, j}] = true_facet_pairs(meshes[i], meshes[j]);
+      for (std::size_t j = i + 1; j < meshes.size(); ++j) pairs[{i, j}] = facet_pairs_by_oracle(meshes[i], meshes[j]);
     }
   }
 };
@@ -110,8 +112,8 @@ class Checker {
   }
 
   void check_contact(const Contact& contact, const Truth& truth) {
-    const TrueHeight w(truth.meshes[number(contact.a)], truth.meshes[number(contact.b)]);
-    const long double height = w(contact.direction);
+    const MinkowskiHeight w = height_of(truth.meshes[number(contact.a)], truth.meshes[number(contact.b)]);
+    const long double height = w(from_eigen(contact.direction));
     const long double size = static_cast<long double>(w.size());
     if (contact.limit_reached) fail(&StabilityFailures::limits, "limit reached");
     const double length = contact.direction.norm();
@@ -122,16 +124,17 @@ class Checker {
     if (!(std::abs(off) <= kDepthTolerance))
       fail(&StabilityFailures::depths, "depth off by " + std::to_string(off * 1e12) + "e-12 sizes");
     if (height < -kDepthTolerance * size) fail(&StabilityFailures::hulls, "hulls that are apart in contact");
-    if (!w.is_local_minimum(contact.direction, kMinimumTolerance * w.size()))
+    if (!w.is_local_minimum(from_eigen(contact.direction), kMinimumTolerance * w.size()))
       fail(&StabilityFailures::directions, "no local minimum");
     if (policy_ == DirectionPolicy::smallest && !is_smallest(w, height))
       fail(&StabilityFailures::directions, "not the smallest");
   }
 
-  static bool is_smallest(const TrueHeight& w, long double height) {
+  static bool is_smallest(const MinkowskiHeight& w, long double height) {
     StabilityRandom random(1);
     for (int i = 0; i < kOtherDirections; ++i) {
-      if (w(random.direction()) < height - kSmallestTolerance * static_cast<long double>(w.size())) return false;
+      if (w(from_eigen(random.direction())) < height - kSmallestTolerance * static_cast<long double>(w.size()))
+        return false;
     }
     return true;
   }
@@ -196,7 +199,7 @@ StabilityFailures check_stability(const StabilityCase& c) {
       return failures;
     }
     Checker carried(c, DirectionPolicy::carried, failures), smallest(c, DirectionPolicy::smallest, failures);
-    std::vector<TruthMesh> meshes;
+    std::vector<Mesh> meshes;
     for (const StabilityBody& body : c.bodies) meshes.push_back(body.mesh);
     const auto step = [&] {
       const Truth truth(meshes);

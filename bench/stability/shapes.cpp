@@ -28,8 +28,8 @@ Eigen::Matrix3d StabilityRandom::rotation() {
   return Eigen::AngleAxisd(uniform(0.0, 2.0 * std::numbers::pi), axis).toRotationMatrix();
 }
 
-TruthMesh box_shape(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
-  TruthMesh mesh;
+Mesh box_shape(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
+  Mesh mesh;
   mesh.positions.resize(3, 8);
   for (int v = 0; v < 8; ++v) {
     mesh.positions.col(v) << (v & 1 ? upper.x() : lower.x()), (v & 2 ? upper.y() : lower.y()),
@@ -42,7 +42,7 @@ TruthMesh box_shape(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) 
   return mesh;
 }
 
-TruthMesh ball_shape(int subdivisions) {
+Mesh ball_shape(int subdivisions) {
   const double g = std::numbers::phi;
   std::vector<Eigen::Vector3d> points{{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
                                       {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
@@ -66,15 +66,15 @@ TruthMesh ball_shape(int subdivisions) {
     }
     facets = std::move(finer);
   }
-  TruthMesh mesh;
+  Mesh mesh;
   mesh.positions =
       Eigen::Map<const Eigen::Matrix3Xd>(points.front().data(), 3, static_cast<Eigen::Index>(points.size()));
   mesh.facets = Eigen::Map<const Eigen::Matrix3Xi>(facets.front().data(), 3, static_cast<Eigen::Index>(facets.size()));
   return mesh;
 }
 
-TruthMesh lumpy_shape(int subdivisions, double roughness, StabilityRandom& random) {
-  TruthMesh mesh = ball_shape(subdivisions);
+Mesh lumpy_shape(int subdivisions, double roughness, StabilityRandom& random) {
+  Mesh mesh = ball_shape(subdivisions);
   for (int bump = 0; bump < 6; ++bump) {
     const Eigen::Vector3d at = random.direction();
     const double height = random.uniform(-roughness, roughness);
@@ -86,8 +86,8 @@ TruthMesh lumpy_shape(int subdivisions, double roughness, StabilityRandom& rando
   return mesh;
 }
 
-TruthMesh sheet_shape(int cells) {
-  TruthMesh mesh;
+Mesh sheet_shape(int cells) {
+  Mesh mesh;
   const int row = cells + 1;
   mesh.positions.resize(3, row * row);
   mesh.facets.resize(3, 2 * cells * cells);
@@ -112,8 +112,8 @@ namespace {
 
 // One triangle after another, nothing shared.
 template <class Triangle>
-TruthMesh triangles(int facets, const Triangle& triangle) {
-  TruthMesh mesh;
+Mesh triangles(int facets, const Triangle& triangle) {
+  Mesh mesh;
   mesh.positions.resize(3, 3 * facets);
   mesh.facets.resize(3, facets);
   for (int f = 0; f < facets; ++f) {
@@ -123,7 +123,7 @@ TruthMesh triangles(int facets, const Triangle& triangle) {
   return mesh;
 }
 
-TruthMesh thin_shape(int facets, double aspect, double third_corner_at, StabilityRandom& random) {
+Mesh thin_shape(int facets, double aspect, double third_corner_at, StabilityRandom& random) {
   return triangles(facets, [&] {
     const Eigen::Vector3d along = random.direction(), middle = random.in_cube(0.3);
     const Eigen::Vector3d from = middle - 0.5 * along, across = random.direction() / aspect;
@@ -135,7 +135,7 @@ TruthMesh thin_shape(int facets, double aspect, double third_corner_at, Stabilit
 
 }  // namespace
 
-TruthMesh soup_shape(int facets, StabilityRandom& random) {
+Mesh soup_shape(int facets, StabilityRandom& random) {
   return triangles(facets, [&] {
     const Eigen::Vector3d at = random.in_cube(0.7);
     Eigen::Matrix3d corners;
@@ -144,15 +144,15 @@ TruthMesh soup_shape(int facets, StabilityRandom& random) {
   });
 }
 
-TruthMesh needle_shape(int facets, double aspect, StabilityRandom& random) {
+Mesh needle_shape(int facets, double aspect, StabilityRandom& random) {
   return thin_shape(facets, aspect, 1.0, random);
 }
-TruthMesh sliver_shape(int facets, double aspect, StabilityRandom& random) {
+Mesh sliver_shape(int facets, double aspect, StabilityRandom& random) {
   return thin_shape(facets, aspect, 0.5, random);
 }
 
-TruthMesh hull_shape(int points, StabilityRandom& random) {
-  TruthMesh cloud;
+Mesh hull_shape(int points, StabilityRandom& random) {
+  Mesh cloud;
   cloud.positions.resize(3, points);
   cloud.facets.resize(3, points);
   for (int v = 0; v < points; ++v) {
@@ -162,8 +162,8 @@ TruthMesh hull_shape(int points, StabilityRandom& random) {
   return convex_hull(cloud);
 }
 
-TruthMesh triangle_shape(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r) {
-  TruthMesh mesh;
+Mesh triangle_shape(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r) {
+  Mesh mesh;
   mesh.positions.resize(3, 3);
   mesh.positions << p, q, r;
   mesh.facets.resize(3, 1);
@@ -171,28 +171,18 @@ TruthMesh triangle_shape(const Eigen::Vector3d& p, const Eigen::Vector3d& q, con
   return mesh;
 }
 
-TruthMesh moved(TruthMesh mesh, const Eigen::Vector3d& by) {
+Mesh moved(Mesh mesh, const Eigen::Vector3d& by) {
   mesh.positions.colwise() += by;
   return mesh;
 }
 
-TruthMesh stretched(TruthMesh mesh, const Eigen::Vector3d& factors) {
-  mesh.positions = factors.asDiagonal() * mesh.positions;
-  return mesh;
-}
-
-TruthMesh rotated(TruthMesh mesh, const Eigen::Matrix3d& rotation) {
+Mesh rotated(Mesh mesh, const Eigen::Matrix3d& rotation) {
   mesh.positions = rotation * mesh.positions;
   return mesh;
 }
 
-TruthMesh inside_out(TruthMesh mesh) {
-  mesh.facets.row(1).swap(mesh.facets.row(2));
-  return mesh;
-}
-
-TruthMesh joined(const TruthMesh& a, const TruthMesh& b) {
-  TruthMesh mesh;
+Mesh joined(const Mesh& a, const Mesh& b) {
+  Mesh mesh;
   mesh.positions.resize(3, a.positions.cols() + b.positions.cols());
   mesh.facets.resize(3, a.facets.cols() + b.facets.cols());
   if (a.positions.cols() > 0) mesh.positions.leftCols(a.positions.cols()) = a.positions;

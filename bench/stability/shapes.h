@@ -24,28 +24,25 @@ class StabilityRandom {
   scenes::Random random_;
 };
 
-TruthMesh box_shape(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper);
+Mesh box_shape(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper);
 // An icosahedron whose facets are split `subdivisions` times and put on the unit sphere: 20 * 4^subdivisions facets.
-TruthMesh ball_shape(int subdivisions);
+Mesh ball_shape(int subdivisions);
 // A ball with smooth bumps and dents of up to `roughness` radii: not convex.
-TruthMesh lumpy_shape(int subdivisions, double roughness, StabilityRandom& random);
+Mesh lumpy_shape(int subdivisions, double roughness, StabilityRandom& random);
 // Flat, edge 1, in the plane z = 0, about the origin: 2 * cells² facets.
-TruthMesh sheet_shape(int cells);
+Mesh sheet_shape(int cells);
 // Random triangles in the cube of half edge 1, each with vertices of its own.
-TruthMesh soup_shape(int facets, StabilityRandom& random);
+Mesh soup_shape(int facets, StabilityRandom& random);
 // Facets of length 1 and width 1 / aspect through the unit ball; a needle has its short edge at one end, a sliver none.
-TruthMesh needle_shape(int facets, double aspect, StabilityRandom& random);
-TruthMesh sliver_shape(int facets, double aspect, StabilityRandom& random);
+Mesh needle_shape(int facets, double aspect, StabilityRandom& random);
+Mesh sliver_shape(int facets, double aspect, StabilityRandom& random);
 // The convex hull of random points of the unit sphere.
-TruthMesh hull_shape(int points, StabilityRandom& random);
-TruthMesh triangle_shape(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r);
+Mesh hull_shape(int points, StabilityRandom& random);
+Mesh triangle_shape(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r);
 
-TruthMesh moved(TruthMesh mesh, const Eigen::Vector3d& by);
-TruthMesh stretched(TruthMesh mesh, const Eigen::Vector3d& factors);
-TruthMesh rotated(TruthMesh mesh, const Eigen::Matrix3d& rotation);
-// Every facet with its corners in the opposite order.
-TruthMesh inside_out(TruthMesh mesh);
+Mesh moved(Mesh mesh, const Eigen::Vector3d& by);
+Mesh rotated(Mesh mesh, const Eigen::Matrix3d& rotation);
 // One mesh with the vertices and facets of both.
-TruthMesh joined(const TruthMesh& a, const TruthMesh& b);
+Mesh joined(const Mesh& a, const Mesh& b);
 
 }  // namespace tact::bench

@@ -56,7 +56,7 @@ TEST(Stability, CountsBadDataThatIsTaken) {
 }
 
 TEST(StabilityShapes, SolidsAreClosedAndRightSideOut) {
-  const std::pair<TruthMesh, double> solids[] = {{box_shape({0, 0, 0}, {1, 2, 3}), 6.0}, {ball_shape(3), 4.15}};
+  const std::pair<Mesh, double> solids[] = {{box_shape({0, 0, 0}, {1, 2, 3}), 6.0}, {ball_shape(3), 4.15}};
   for (const auto& [mesh, volume] : solids) {
     double sum = 0.0;
     for (const auto f : mesh.facets.colwise()) {
@@ -68,7 +68,7 @@ TEST(StabilityShapes, SolidsAreClosedAndRightSideOut) {
 }
 
 TEST(MinkowskiFaces, OfTwoCubesAreThoseOfTheirSum) {
-  const TruthMesh cube = box_shape({-1, -1, -1}, {1, 1, 1});
+  const Mesh cube = box_shape({-1, -1, -1}, {1, 1, 1});
   const MinkowskiFaces faces(cube, cube);
   const auto smallest = faces.smallest({1.5, 0.25, 0.0}, 1e-12);
   EXPECT_DOUBLE_EQ(smallest.height, 0.5);

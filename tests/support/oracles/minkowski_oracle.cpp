@@ -15,12 +15,6 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-struct Long3 {
-  long double x = 0.0L;
-  long double y = 0.0L;
-  long double z = 0.0L;
-};
-
 Long3 widened(Vec3 p) { return {p.x, p.y, p.z}; }
 Long3 operator-(Long3 p, Long3 q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
 long double dot(Long3 p, Long3 q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
@@ -148,10 +142,51 @@ bool is_new(const std::vector<Vec3>& directions, Vec3 n) {
 
 }  // namespace
 
+MinkowskiHeight::MinkowskiHeight(std::span<const Vec3> a, std::span<const Vec3> b) : a_(widened(a)), b_(widened(b)) {
+  const Long3 origin = a_[0];
+  for (std::vector<Long3>* points : {&a_, &b_}) {
+    for (Long3& p : *points) p = p - origin;
+  }
+}
+
+long double MinkowskiHeight::along(const Long3& n, const Long3& shift) const {
+  return (range_along(a_, n).high - range_along(b_, n).low - dot(n, shift)) / norm(n);
+}
+
+long double MinkowskiHeight::operator()(Vec3 n, Vec3 shift) const { return along(widened(n), widened(shift)); }
+
+double MinkowskiHeight::size() const {
+  long double largest = 0.0L;
+  for (const Long3& axis : {Long3{1, 0, 0}, Long3{0, 1, 0}, Long3{0, 0, 1}}) {
+    const Range a = range_along(a_, axis), b = range_along(b_, axis);
+    largest = std::max(largest, std::max(a.high, b.high) - std::min(a.low, b.low));
+  }
+  return static_cast<double>(largest);
+}
+
+bool MinkowskiHeight::is_local_minimum(Vec3 n, double tolerance, Vec3 shift) const {
+  constexpr int kTurns = 64;
+  const Long3 center = divided(widened(n), norm(widened(n))), by = widened(shift);
+  const auto [u, v] = frame(center);
+  const long double allowed = along(center, by) - static_cast<long double>(tolerance);
+  long double radius = 1e-2L;
+  for (int decade = 2; decade <= 7; ++decade, radius *= 0.1L) {
+    for (int turn = 0; turn < kTurns; ++turn) {
+      const long double angle = 2.0L * std::numbers::pi_v<long double> * turn / kTurns;
+      const long double s = radius * std::cos(angle), t = radius * std::sin(angle);
+      const Long3 turned{center.x + s * u.x + t * v.x, center.y + s * u.y + t * v.y, center.z + s * u.z + t * v.z};
+      if (along(turned, by) < allowed) return false;
+    }
+  }
+  return true;
+}
+
 long double minkowski_height(std::span<const Vec3> a, std::span<const Vec3> b, Vec3 n) {
-  const Long3 wide = widened(n);
-  const long double length = norm(wide);
-  return (range_along(widened(a), wide).high - range_along(widened(b), wide).low) / length;
+  return MinkowskiHeight(a, b)(n);
+}
+
+bool is_local_minimum(std::span<const Vec3> a, std::span<const Vec3> b, Vec3 n, double tolerance) {
+  return MinkowskiHeight(a, b).is_local_minimum(n, tolerance);
 }
 
 SmallestHeight smallest_height(std::span<const Vec3> a, std::span<const Vec3> b, double tie_tolerance) {
@@ -177,27 +212,6 @@ SmallestHeight smallest_height(std::span<const Vec3> a, std::span<const Vec3> b,
     if (is_new(result.directions, n)) result.directions.push_back(n);
   }
   return result;
-}
-
-bool is_local_minimum(std::span<const Vec3> a, std::span<const Vec3> b, Vec3 n, double tolerance) {
-  constexpr int kTurns = 64;
-  const std::vector<Long3> points_a = widened(a);
-  const std::vector<Long3> points_b = widened(b);
-  const auto height = [&](Long3 m) { return (range_along(points_a, m).high - range_along(points_b, m).low) / norm(m); };
-  const Long3 centre = divided(widened(n), norm(widened(n)));
-  const auto [u, v] = frame(centre);
-  const long double at_centre = height(centre);
-  long double radius = 1e-2L;
-  for (int decade = 2; decade <= 7; ++decade, radius *= 0.1L) {
-    for (int turn = 0; turn < kTurns; ++turn) {
-      const long double angle = 2.0L * std::numbers::pi_v<long double> * turn / kTurns;
-      const long double s = radius * std::cos(angle);
-      const long double t = radius * std::sin(angle);
-      const Long3 turned{centre.x + s * u.x + t * v.x, centre.y + s * u.y + t * v.y, centre.z + s * u.z + t * v.z};
-      if (height(turned) < at_centre - static_cast<long double>(tolerance)) return false;
-    }
-  }
-  return true;
 }
 
 }  // namespace tact::tests
