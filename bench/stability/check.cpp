@@ -124,17 +124,17 @@ class Checker {
     if (!(std::abs(off) <= kDepthTolerance))
       fail(&StabilityFailures::depths, "depth off by " + std::to_string(off * 1e12) + "e-12 sizes");
     if (height < -kDepthTolerance * size) fail(&StabilityFailures::hulls, "hulls that are apart in contact");
-    if (!w.is_local_minimum(from_eigen(contact.direction), kMinimumTolerance * w.size()))
+    if (!w.is_local_minimum(from_eigen(contact.direction), kMinimumTolerance * static_cast<double>(size)))
       fail(&StabilityFailures::directions, "no local minimum");
-    if (policy_ == DirectionPolicy::smallest && !is_smallest(w, height))
+    if (policy_ == DirectionPolicy::smallest && !is_smallest(w, height - kSmallestTolerance * size))
       fail(&StabilityFailures::directions, "not the smallest");
   }
 
-  static bool is_smallest(const MinkowskiHeight& w, long double height) {
+  // Is w nowhere less than `least`?
+  static bool is_smallest(const MinkowskiHeight& w, long double least) {
     StabilityRandom random(1);
     for (int i = 0; i < kOtherDirections; ++i) {
-      if (w(from_eigen(random.direction())) < height - kSmallestTolerance * static_cast<long double>(w.size()))
-        return false;
+      if (w(from_eigen(random.direction())) < least) return false;
     }
     return true;
   }
