@@ -17,8 +17,6 @@ std::vector<Vec3> near_points(const Mesh& mesh, const Mesh& origin) {
 
 }  // namespace
 
-Vec3 from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 ::testing::AssertionResult is_sound(const Contact& contact, const Mesh& a, const Mesh& b) {
   const std::vector<Vec3> points_a = near_points(a, a), points_b = near_points(b, a);
   const double size = extent(a) + extent(b), tolerance = 1e-13 * size;

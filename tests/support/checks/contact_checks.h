@@ -6,11 +6,10 @@
 
 #include <optional>
 
+#include "engine/eigen_vectors.h"
 #include "tests/support/mesh.h"
 
 namespace tact::tests {
-
-Vec3 from_eigen(const Eigen::Vector3d& v);
 
 // Does all that `contact` says of direction, depth and planes hold for the bodies `a` and `b`? The direction is of unit
 // length and a local minimum of the overlap, the depth is the overlap, the planes are where the hulls end, and no limit
