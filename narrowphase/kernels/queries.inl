@@ -119,7 +119,9 @@ inline Pack side_distance_squared(const VectorPack& a, const VectorPack& b) {
 // inside and what is not by 2^-50 m² / h, but not by more than the size of the facet, and so by 2^-20 m: the distance
 // from a side there is wrong by 2^-40 m². Narrower facets have their sides nearly as near as any of their points: the
 // squares differ by h² at most.
-inline Pack facet_distance_squared(const VectorPack& a, const VectorPack& b, const VectorPack& c) {
+// Inlined, or packs go through memory: nearest points take 1.06 of their time then.
+[[gnu::always_inline]] inline Pack facet_distance_squared(const VectorPack& a, const VectorPack& b,
+                                                          const VectorPack& c) {
   const Pack zero = spread(0.0);
   const Pack sides = min(min(side_distance_squared(a, b), side_distance_squared(b, c)), side_distance_squared(c, a));
   const VectorPack ab = sub(b, a), ac = sub(c, a), bc = sub(c, b), normal = cross(ab, ac);
