@@ -190,7 +190,7 @@ TEST(SetOutLines, TellsWhatFloatsAreNotFor) {
 }
 
 // Triangles that a segment meets, passes by, touches at a corner or an edge, or lies in the plane of.
-TEST(MeetLines, EqualsSightlineBitForBit) {
+TEST(MeetLines, EqualsPreparedSegmentBitForBit) {
   Random random(4);
   PredicateCounts counts;
   const ClusteredMesh mesh = tests::clustered(tests::wrinkled_sheet(12, 2.0, 0.3, 1));
