@@ -50,30 +50,29 @@ namespace {
 
 bool has_repeated(const int* facet) { return facet[0] == facet[1] || facet[1] == facet[2] || facet[2] == facet[0]; }
 
-WeldedMesh welded(std::span<const double> coordinates, std::span<const int> corners) {
-  WeldedMesh mesh;
+WeldedArrays welded(std::span<const double> coordinates, std::span<const int> corners) {
+  WeldedArrays mesh;
   mesh.vertex_of = first_at_position(coordinates);
-  const std::size_t vertices = mesh.vertex_of.size(), facets = corners.size() / 3;
-  mesh.positions.resize(3, static_cast<Eigen::Index>(vertices));
+  const std::size_t vertices = mesh.vertex_of.size();
+  mesh.positions.reserve(coordinates.size());
   int kept = 0;
   for (std::size_t v = 0; v < vertices; ++v) {
     const auto first = static_cast<std::size_t>(mesh.vertex_of[v]);
-    if (first == v) std::copy_n(coordinates.data() + 3 * v, 3, mesh.positions.col(kept).data());
+    const auto position = coordinates.subspan(3 * v, 3);
+    if (first == v) mesh.positions.insert(mesh.positions.end(), position.begin(), position.end());
     mesh.vertex_of[v] = first == v ? kept++ : mesh.vertex_of[first];
   }
-  mesh.positions.conservativeResize(3, kept);
   mesh.merged_vertices = static_cast<int>(vertices) - kept;
-  mesh.facets.resize(3, static_cast<Eigen::Index>(facets));
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    mesh.facets.data()[i] = mesh.vertex_of[static_cast<std::size_t>(corners[i])];
-  for (std::size_t f = 0; f < facets; ++f)
-    mesh.collapsed_facets += has_repeated(mesh.facets.data() + 3 * f) && !has_repeated(corners.data() + 3 * f);
+  mesh.facets.reserve(corners.size());
+  for (const int corner : corners) mesh.facets.push_back(mesh.vertex_of[static_cast<std::size_t>(corner)]);
+  for (std::size_t i = 0; i < corners.size(); i += 3)
+    mesh.collapsed_facets += has_repeated(mesh.facets.data() + i) && !has_repeated(corners.data() + i);
   return mesh;
 }
 
 }  // namespace
 
-WeldedMesh weld(const Positions& positions, const Facets& facets) {
+WeldedArrays weld_arrays(const Positions& positions, const Facets& facets) {
   const std::string name = "mesh to weld";
   const base::FloatingPointMode mode;  // in which a subnormal number is not 0
   return with_memory("welding ran out of memory", [&] {

@@ -21,6 +21,11 @@ namespace {
 
 constexpr const char* kNoMemory = "playing a recording ran out of memory";
 
+template <class Columns, class Number>
+Columns columns_of(const std::vector<Number>& numbers) {
+  return Columns::strided(numbers.data(), numbers.size() / static_cast<std::size_t>(Columns::none().rows()));
+}
+
 }  // namespace
 
 struct RecordingPlayer::Implementation {
@@ -173,13 +178,13 @@ struct RecordingPlayer::Implementation {
     std::string name = read_text();
     const auto vertices = reader.read<std::uint64_t>();
     const auto facets = reader.read<std::uint64_t>();
-    const Eigen::Matrix3Xd positions = read_columns<double>(vertices);
-    const Eigen::Matrix3Xi corners = read_columns<std::int32_t>(facets);
+    const std::vector<double> positions = read_columns<double>(vertices);
+    const std::vector<int> corners = read_columns<std::int32_t>(facets);
     make([&] {
       world_number = world
-                         ->add_body({.positions = positions,
-                                     .facets = corners,
-                                     .edges = next_edges,
+                         ->add_body({.positions = columns_of<Positions>(positions),
+                                     .facets = columns_of<Facets>(corners),
+                                     .edges = columns_of<Edges>(next_edges),
                                      .points = next_points,
                                      .surface = surface,
                                      .motion = motion,
@@ -191,7 +196,7 @@ struct RecordingPlayer::Implementation {
                          .world;
     });
     next_key.reset();
-    next_edges.resize(2, 0);
+    next_edges.clear();
     next_points.clear();
   }
 
@@ -224,31 +229,31 @@ struct RecordingPlayer::Implementation {
     const auto count = reader.read<std::uint64_t>();
     reader.require(count, kSmallest);
     std::vector<BodyId> bodies;
-    std::vector<Eigen::Matrix3Xd> positions;
+    std::vector<std::vector<double>> positions;
     for (std::uint64_t i = 0; i < count; ++i) {
       bodies.push_back(read_body());
       positions.push_back(read_columns<double>(reader.read<std::uint64_t>()));
     }
     std::vector<PositionsUpdate> updates;
-    for (std::size_t i = 0; i < bodies.size(); ++i) updates.push_back({bodies[i], positions[i]});
+    for (std::size_t i = 0; i < bodies.size(); ++i) updates.push_back({bodies[i], columns_of<Positions>(positions[i])});
     make([&] { world->set_positions(updates); });
   }
 
   void set_facets() {
     const BodyId body = read_body();
     const auto vertices = reader.read<std::uint64_t>(), facets = reader.read<std::uint64_t>();
-    const Eigen::Matrix3Xd positions = read_columns<double>(vertices);
-    const Eigen::Matrix3Xi corners = read_columns<std::int32_t>(facets);
+    const std::vector<double> positions = read_columns<double>(vertices);
+    const std::vector<int> corners = read_columns<std::int32_t>(facets);
     const std::vector<int> vertex_map = read_all<std::int32_t>(vertices);
     make([&] {
-      world->set_facets(body, {.positions = positions,
-                               .facets = corners,
-                               .edges = next_edges,
+      world->set_facets(body, {.positions = columns_of<Positions>(positions),
+                               .facets = columns_of<Facets>(corners),
+                               .edges = columns_of<Edges>(next_edges),
                                .points = next_points,
                                .vertex_map = vertex_map,
                                .facet_map = next_facet_map});
     });
-    next_edges.resize(2, 0);
+    next_edges.clear();
     next_points.clear();
     next_facet_map.clear();
   }
@@ -321,9 +326,10 @@ struct RecordingPlayer::Implementation {
     const BodyId body = read_body();
     const auto rings = reader.read<std::int32_t>();
     const auto rest_distance = reader.read<double>();
-    const Eigen::Matrix3Xd rest = read_columns<double>(reader.read<std::uint64_t>());
+    const std::vector<double> rest = read_columns<double>(reader.read<std::uint64_t>());
     make([&] {
-      world->set_self_contact_filter(body, {.rings = rings, .rest_distance = rest_distance, .rest_positions = rest});
+      world->set_self_contact_filter(
+          body, {.rings = rings, .rest_distance = rest_distance, .rest_positions = columns_of<Positions>(rest)});
     });
   }
 
@@ -395,12 +401,11 @@ struct RecordingPlayer::Implementation {
     return all;
   }
 
-  template <class Number, int kRows = 3>
-  Eigen::Matrix<Number, kRows, Eigen::Dynamic> read_columns(std::uint64_t count) {
+  // `count` columns, one after the other: no matrices, whose memory Eigen aligns as the flags of each side say.
+  template <class Number, std::size_t kRows = 3>
+  std::vector<Number> read_columns(std::uint64_t count) {
     reader.require(count, kRows * sizeof(Number));
-    Eigen::Matrix<Number, kRows, Eigen::Dynamic> columns(kRows, static_cast<Eigen::Index>(count));
-    for (Number& value : columns.reshaped()) value = reader.read<Number>();
-    return columns;
+    return read_all<Number>(kRows * count);
   }
 
   // Calls call(); data that the world refuses are the recording's fault.
@@ -429,10 +434,9 @@ struct RecordingPlayer::Implementation {
   std::optional<std::size_t> cut_at = {};
   std::string recorded_by = {};
   std::optional<World> world = {};
-  std::uint32_t world_number = 0;              // that ids carry; known from the first body
-  std::optional<std::uint64_t> next_key = {};  // of the body that is added next
-  Eigen::Matrix2Xi next_edges = {};            // likewise
-  std::vector<int> next_points = {}, next_facet_map = {};
+  std::uint32_t world_number = 0;                                           // that ids carry; known from the first body
+  std::optional<std::uint64_t> next_key = {};                               // of the body that is added next
+  std::vector<int> next_edges = {}, next_points = {}, next_facet_map = {};  // likewise
   int steps = 0;
   const Report nothing = {};
   const Report* report = &nothing;

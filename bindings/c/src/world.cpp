@@ -561,12 +561,12 @@ tact_error tact_weld(const tact_columns* positions, const tact_columns* facets, 
   return guarded([&] {
     check_not_null(positions, facets, mesh);
     tact::c::check_struct_size(*mesh);
-    const tact::WeldedMesh welded =
-        tact::weld(columns_of<tact::Positions>(*positions), columns_of<tact::Facets>(*facets));
-    if (mesh->positions != nullptr) std::copy_n(welded.positions.data(), welded.positions.size(), mesh->positions);
-    if (mesh->facets != nullptr) std::copy_n(welded.facets.data(), welded.facets.size(), mesh->facets);
+    const tact::WeldedArrays welded =
+        tact::weld_arrays(columns_of<tact::Positions>(*positions), columns_of<tact::Facets>(*facets));
+    if (mesh->positions != nullptr) std::ranges::copy(welded.positions, mesh->positions);
+    if (mesh->facets != nullptr) std::ranges::copy(welded.facets, mesh->facets);
     if (mesh->vertex_of != nullptr) std::ranges::copy(welded.vertex_of, mesh->vertex_of);
-    mesh->vertices = static_cast<int32_t>(welded.positions.cols());
+    mesh->vertices = static_cast<int32_t>(welded.positions.size() / 3);
     mesh->merged_vertices = welded.merged_vertices;
     mesh->collapsed_facets = welded.collapsed_facets;
   });

@@ -1,9 +1,13 @@
-// Prints the hash of each step's report: bodies of uneven boxes that pass through each other. Their positions are sums
-// of small multiples of 1/1024, the same doubles however this file is compiled.
+// Prints the hash of each step's report, and of a recording that is played: bodies of uneven boxes that pass through
+// each other. Their positions are sums of small multiples of 1/1024, the same doubles however this file is compiled.
+// And welds a box whose facets have corners of their own.
+#include <tact/recording.h>
 #include <tact/tact.h>
+#include <tact/weld.h>
 
 #include <cinttypes>
 #include <cstdio>
+#include <sstream>
 #include <vector>
 
 namespace {
@@ -26,6 +30,29 @@ Eigen::Matrix3Xd box_at_step(int body, int step) {
   return positions;
 }
 
+// Whether each step of a recording has its hash again.
+bool plays(const std::ostringstream& recording) {
+  tact::RecordingPlayer player(recording.str());
+  int steps = 0;
+  for (; const auto step = player.next(); ++steps) {
+    if (!step->same()) return false;
+  }
+  return steps == 10;
+}
+
+// Whether a box whose facets have corners of their own has eight again.
+bool welds(const Eigen::Matrix3Xd& box, const Eigen::Matrix3Xi& facets) {
+  Eigen::Matrix3Xd corners(3, facets.size());
+  Eigen::Matrix3Xi own(3, facets.cols());
+  for (int i = 0; i < facets.size(); ++i) {
+    corners.col(i) = box.col(facets(i % 3, i / 3));
+    own(i % 3, i / 3) = i;
+  }
+  tact::WeldedMesh mesh = tact::weld(corners, own);
+  mesh.positions.conservativeResize(3, mesh.positions.cols() + 1);  // by this program's Eigen
+  return mesh.positions.cols() == 9 && mesh.facets.maxCoeff() == 7 && mesh.merged_vertices == 28;
+}
+
 }  // namespace
 
 int main() {
@@ -33,7 +60,11 @@ int main() {
   facets << 0, 0, 4, 4, 0, 0, 2, 2, 0, 0, 1, 1,  //
       2, 3, 5, 7, 1, 5, 6, 7, 4, 6, 3, 7,        //
       3, 1, 7, 6, 5, 4, 7, 3, 6, 2, 7, 5;
+  if (!welds(box_at_step(0, 0), facets)) return 1;
+  std::ostringstream recording;
+  tact::Recorder recorder(recording);
   tact::World world({.threads = 2, .outputs = {.zones = true, .patches = true}});
+  world.set_observer(&recorder);
   std::vector<tact::BodyId> bodies;
   for (int body = 0; body < kBodies; ++body) {
     bodies.push_back(world.add_body({.positions = box_at_step(body, 0), .facets = facets}));
@@ -47,4 +78,5 @@ int main() {
                 report.contacts().size(), report.stats().facet_pairs);
     if (report.stats().facet_pairs == 0) return 1;
   }
+  return plays(recording) ? 0 : 1;
 }
