@@ -28,12 +28,12 @@ struct WeldedArrays {
   int collapsed_facets = 0;
 };
 
-/// Returns a mesh without the vertices that repeat an earlier position; 0 and -0 are equal. Errors: wrong_size,
-/// too_large, non_finite_position, position_out_of_range, facet_out_of_range.
+/// Returns what weld() does, as arrays. Errors: likewise.
 TACT_API WeldedArrays weld_arrays(const Positions& positions, const Facets& facets);
 
-/// The same as matrices. They are made here, as Eigen aligns memory as the flags of the program say, not of the
-/// library.
+// The matrices are made here: Eigen aligns memory as the flags of the program say, which need not be the library's.
+/// Returns a mesh without the vertices that repeat an earlier position; 0 and -0 are equal. Errors: wrong_size,
+/// too_large, non_finite_position, position_out_of_range, facet_out_of_range.
 inline WeldedMesh weld(const Positions& positions, const Facets& facets) {
   WeldedArrays arrays = weld_arrays(positions, facets);
   const auto columns = [](const auto& array) { return static_cast<Eigen::Index>(array.size() / 3); };
