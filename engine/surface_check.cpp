@@ -10,6 +10,7 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/eigen_vectors.h"
 #include "engine/first_at_position.h"
 
 namespace tact {
@@ -153,21 +154,17 @@ void find_slivers(std::span<const Vec3> positions, std::span<const Facet> facets
   }
 }
 
-// Eigen's matrices of a body, of which all vertices are used.
-struct Mesh {
-  Eigen::Matrix3Xd positions;
-  Eigen::Matrix3Xi facets;
-};
-
 // Whether closed components are inside out. In front of a facet and behind it, a little off its middle, exactly one is
 // inside a solid; of a component inside out, that in front.
-void find_inside_out(const World& world, const Mesh& mesh, SurfaceCheck& check) {
+void find_inside_out(const World& world, std::span<const Vec3> positions, std::span<const Facet> facets,
+                     SurfaceCheck& check) {
   std::vector<PointQuery> queries;
-  const double size = mesh.positions.size() == 0 ? 0.0 : mesh.positions.cwiseAbs().maxCoeff();
+  double size = 0.0;
+  for (const Vec3& p : positions) size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   for (const SurfaceComponent& component : check.components) {
-    const Eigen::Vector3i corners = mesh.facets.col(component.facet);
-    const Eigen::Vector3d p = mesh.positions.col(corners[0]), a = mesh.positions.col(corners[1]) - p,
-                          b = mesh.positions.col(corners[2]) - p;
+    const Facet& corners = facets[static_cast<std::size_t>(component.facet)];
+    const auto corner = [&](std::size_t k) { return to_eigen(positions[static_cast<std::size_t>(corners[k])]); };
+    const Eigen::Vector3d p = corner(0), a = corner(1) - p, b = corner(2) - p;
     const Eigen::Vector3d middle = p + (a + b) / 3.0, normal = a.stableNormalized().cross(b.stableNormalized());
     const double off = std::max(0x1p-20 * std::min(a.stableNorm(), b.stableNorm()), 0x1p-50 * size);
     for (const double side : {off, -off}) queries.push_back({.point = middle + side * normal.stableNormalized()});
@@ -192,27 +189,23 @@ SurfaceCheck check_surface(std::span<const Vec3> positions, std::span<const Face
     number[v] = static_cast<int>(vertices.size());
     vertices.push_back(static_cast<int>(v));
   }
-  Mesh mesh{Eigen::Matrix3Xd(3, vertices.size()), Eigen::Matrix3Xi(3, facets.size())};
   std::vector<Vec3> used;
-  for (const int v : vertices) {
-    const Vec3& p = positions[static_cast<std::size_t>(v)];
-    mesh.positions.col(static_cast<Eigen::Index>(used.size())) << p.x, p.y, p.z;
-    used.push_back(p);
-  }
+  for (const int v : vertices) used.push_back(positions[static_cast<std::size_t>(v)]);
   std::vector<Facet> renumbered(facets.begin(), facets.end());
-  for (std::size_t f = 0; f < facets.size(); ++f) {
-    for (std::size_t k = 0; k < 3; ++k)
-      mesh.facets(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(f)) = renumbered[f][k] =
-          number[static_cast<std::size_t>(facets[f][k])];
+  for (Facet& facet : renumbered) {
+    for (int& vertex : facet) vertex = number[static_cast<std::size_t>(vertex)];
   }
   find_components(renumbered, check);
   find_repeated(used, renumbered, check);
   find_slivers(used, renumbered, sliver, check);
   World world({.threads = threads});
-  world.add_body({.positions = mesh.positions, .facets = mesh.facets, .self_contact = true});
+  world.add_body(
+      {.positions = Positions::strided(used.empty() ? nullptr : &used.front().x, used.size()),
+       .facets = Facets::strided(renumbered.empty() ? nullptr : renumbered.front().data(), renumbered.size()),
+       .self_contact = true});
   for (const Contact& contact : world.detect().contacts())
     check.crossings.assign(contact.facet_pairs().begin(), contact.facet_pairs().end());
-  find_inside_out(world, mesh, check);
+  find_inside_out(world, used, renumbered, check);
   for (auto* const edges : {&check.border_edges, &check.branching_edges, &check.repeated_vertices}) {
     for (std::array<int, 2>& edge : *edges) {
       for (int& vertex : edge) vertex = vertices[static_cast<std::size_t>(vertex)];
