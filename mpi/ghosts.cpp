@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/bodies/columns.h"
 #include "mpi/mesh_bytes.h"
 #include "mpi/world_implementation.h"
 
@@ -271,8 +272,7 @@ void World::Implementation::take_updates(std::span<const Message> messages) {
     });
   });
   std::vector<tact::PositionsUpdate> updates;
-  for (const auto& [id, place] : moved)
-    updates.push_back({id, Positions::strided(positions[place].data(), positions[place].size() / 3)});
+  for (const auto& [id, place] : moved) updates.push_back({id, columns_of<Positions>(positions[place])});
   local.set_positions(updates);
   for (const auto& set : rest) set();
 }

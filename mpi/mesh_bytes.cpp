@@ -1,5 +1,7 @@
 #include "mpi/mesh_bytes.h"
 
+#include "engine/bodies/columns.h"
+
 namespace tact::mpi {
 
 namespace {
@@ -11,11 +13,6 @@ void put(ByteWriter& to, const Columns<Scalar, kRows>& columns) {
   for (std::ptrdiff_t i = 0; i < columns.cols(); ++i) {
     for (const Scalar number : columns.column(i)) to.put(number);
   }
-}
-
-template <class Type, int kRows, class Number>
-Type columns_of(const std::vector<Number>& numbers) {
-  return Type::strided(numbers.data(), numbers.size() / kRows);
 }
 
 }  // namespace
@@ -38,9 +35,9 @@ MeshOfBytes::MeshOfBytes(std::span<const std::byte> bytes) {
 }
 
 MeshUpdate MeshOfBytes::update() const {
-  return {.positions = columns_of<Positions, 3>(positions_),
-          .facets = columns_of<Facets, 3>(facets_),
-          .edges = columns_of<Edges, 2>(edges_),
+  return {.positions = columns_of<Positions>(positions_),
+          .facets = columns_of<Facets>(facets_),
+          .edges = columns_of<Edges>(edges_),
           .points = points_,
           .vertex_map = vertex_map_,
           .facet_map = facet_map_};

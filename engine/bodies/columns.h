@@ -23,6 +23,12 @@ void make_copy_room(const Columns<Scalar, kRows>& columns, std::vector<Scalar>& 
   if (!is_packed(columns)) copy.resize(kRows * columns.cols());
 }
 
+// A view of columns that stand one after the other.
+template <class Columns, class Number>
+Columns columns_of(const std::vector<Number>& numbers) {
+  return Columns::strided(numbers.data(), numbers.size() / static_cast<std::size_t>(Columns::none().rows()));
+}
+
 // A number of a column, as it was given.
 template <int kRows>
 long long index_at(const Columns<int, kRows>& columns, std::ptrdiff_t column, int row);

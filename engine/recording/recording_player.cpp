@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/floating_point_mode.h"
+#include "engine/bodies/columns.h"
 #include "engine/failed_step.h"
 #include "engine/recording/byte_reader.h"
 #include "engine/recording/format.h"
@@ -20,11 +21,6 @@ using recording::ByteReader, recording::EndOfBytes, recording::RecordKind;
 namespace {
 
 constexpr const char* kNoMemory = "playing a recording ran out of memory";
-
-template <class Columns, class Number>
-Columns columns_of(const std::vector<Number>& numbers) {
-  return Columns::strided(numbers.data(), numbers.size() / static_cast<std::size_t>(Columns::none().rows()));
-}
 
 }  // namespace
 

@@ -1,6 +1,6 @@
-// Prints the hash of each step's report, and of a recording that is played: bodies of uneven boxes that pass through
-// each other. Their positions are sums of small multiples of 1/1024, the same doubles however this file is compiled.
-// And welds a box whose facets have corners of their own.
+// Prints the hash of each step's report: bodies of uneven boxes that pass through each other. Their positions are sums
+// of small multiples of 1/1024, the same doubles however this file is compiled. Fails if its recording does not play
+// again, or a box whose facets have corners of their own is not welded.
 #include <tact/recording.h>
 #include <tact/tact.h>
 #include <tact/weld.h>
