@@ -8,7 +8,6 @@
 #include <optional>
 #include <tuple>
 
-#include "engine/base/parallel.h"
 #include "engine/base/text.h"
 #include "engine/body_search.h"
 #include "engine/check_coordinate.h"
@@ -194,22 +193,8 @@ RayHit find_hit(const Bodies& bodies, const Ray& ray, RayHits wanted) {
   return best;
 }
 
-void begin_rays(const Bodies& bodies, std::size_t rays, int threads, narrowphase::SegmentBatch& room) {
-  std::vector<int> clusters(bodies.boxes().size());
-  for (std::uint32_t slot = 0; slot < clusters.size(); ++slot)
-    clusters[slot] = bodies.boxes()[slot].empty() ? 0 : bodies.in_slot(slot).mesh.cluster_count();
-  room.begin(clusters, rays);
-  // A tree takes some microseconds, a node one, a thread fifty to wake up.
-  constexpr std::size_t kTreesAtATime = 16, kNodesAtATime = 64;
-  base::parallel_for(room.meshes().size(), kTreesAtATime, threads, [&](std::size_t k) {
-    const std::size_t slot = room.meshes()[k];
-    room.make_tree(bodies.placed(static_cast<std::uint32_t>(slot)).mesh, slot);
-  });
-  base::parallel_for(room.node_count(), kNodesAtATime, threads, [&](std::size_t i) { room.make_node(i); });
-}
-
 void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<RayHit> hits,
-                     const narrowphase::SegmentBatch& room) {
+                     const narrowphase::SegmentBatch& trees) {
   std::array<narrowphase::FirstHitQuery, narrowphase::kLinesAtATime> queries;
   std::array<Box, narrowphase::kLinesAtATime> boxes;
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -222,7 +207,7 @@ void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<
     }
     hits[i] = {};
   }
-  for (const std::size_t mesh : room.meshes()) {
+  for (const std::size_t mesh : trees.meshes()) {
     const auto slot = static_cast<std::uint32_t>(mesh);
     std::array<narrowphase::FirstHitQuery*, narrowphase::kLinesAtATime> asked;
     std::size_t count = 0;
@@ -233,15 +218,15 @@ void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<
     }
     if (count == 0) continue;
     const Body& body = bodies.placed(slot);
-    narrowphase::ask_first_hits(body.mesh, room.tree(slot), {asked.data(), count});
+    narrowphase::ask_first_hits(body.mesh, trees.tree(slot), {asked.data(), count});
     for (std::size_t k = 0; k < count; ++k) {
       const auto i = static_cast<std::size_t>(asked[k] - queries.data());
       const auto& hit = asked[k]->hit;
       if (hit && is_before(bodies, *hit, slot, hits[i])) hits[i] = hit_of(body, *hit);
     }
   }
-  if (room.meshes().size() == bodies.count()) return;
-  for (std::size_t i = 0; i < rays.size(); ++i) find_first_hit(bodies, rays[i], &room, hits[i]);
+  if (trees.meshes().size() == bodies.count()) return;
+  for (std::size_t i = 0; i < rays.size(); ++i) find_first_hit(bodies, rays[i], &trees, hits[i]);
 }
 
 std::vector<RayHit> find_all_hits(const Bodies& bodies, const Ray& ray) {

@@ -22,11 +22,9 @@ void check_query(const PointQuery& query);
 void check_query(const BoxQuery& query);
 
 RayHit find_hit(const Bodies& bodies, const Ray& ray, RayHits wanted);
-/// Prepares what many rays need of the bodies as they are now; `room` is the caller's alone.
-void begin_rays(const Bodies& bodies, std::size_t rays, int threads, narrowphase::SegmentBatch& room);
-/// Answers some of them, up to kLinesAtATime, each as find_hit().
+/// The first hits of up to kLinesAtATime rays, each as find_hit() has it.
 void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<RayHit> hits,
-                     const narrowphase::SegmentBatch& room);
+                     const narrowphase::SegmentBatch& trees);
 std::vector<RayHit> find_all_hits(const Bodies& bodies, const Ray& ray);
 ClosestPoint find_closest_point(const Bodies& bodies, const PointQuery& query);
 ClosestPoint find_signed_distance(const Bodies& bodies, const PointQuery& query);

@@ -10,7 +10,7 @@
 #include "engine/base/timer.h"
 #include "engine/bodies/bodies.h"
 #include "engine/motion_stage.h"
-#include "engine/queries.h"
+#include "engine/ray_trees.h"
 #include "engine/step.h"
 #include "engine/with_memory.h"
 
@@ -24,7 +24,7 @@ struct World::Implementation {
   base::Workers workers;
   Bodies bodies;
   Step step;
-  base::Pool<narrowphase::SegmentBatch> segment_batches;
+  base::Pool<RayTrees> ray_trees;
   std::unique_ptr<MotionStage> motion = nullptr;  // made by the first detect_motion()
   double refresh_ms = 0.0;                        // since the last step
   WorldObserver* observer = nullptr;

@@ -87,13 +87,16 @@ void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits
   with_memory(kNoMemoryForAnswers, [&] {
     check_queries(i.bodies, rays, hits.size());
     constexpr std::size_t kAtATime = narrowphase::kLinesAtATime;
-    const base::Pool<narrowphase::SegmentBatch>::Loan batch(i.segment_batches);
+    const base::Pool<RayTrees>::Loan loan(i.ray_trees);
+    RayTrees& trees = *loan;
     i.bodies.expect_queries(rays.size());
-    begin_rays(i.bodies, rays.size(), i.settings.threads, *batch);
     const std::size_t blocks = (rays.size() + kAtATime - 1) / kAtATime;
-    base::parallel_for(blocks, kRayBlocksAtATime, i.settings.threads, [&](std::size_t block) {
+    const int threads = blocks > kRayBlocksAtATime ? i.settings.threads : 1;
+    trees.begin(i.bodies, rays.size(), threads);
+    base::parallel_for(blocks, kRayBlocksAtATime, threads, [&](std::size_t block, int thread) {
       const std::size_t begin = block * kAtATime, count = std::min(kAtATime, rays.size() - begin);
-      find_first_hits(i.bodies, rays.subspan(begin, count), hits.subspan(begin, count), *batch);
+      find_first_hits(i.bodies, rays.subspan(begin, count), hits.subspan(begin, count),
+                      trees.of_thread(i.bodies, thread));
     });
   });
 }
