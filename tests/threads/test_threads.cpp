@@ -8,7 +8,6 @@
 #include <thread>
 #include <vector>
 
-#include "engine/base/parallel.h"
 #include "tests/support/checks/detection.h"
 #include "tests/support/environment/floating_point_state.h"
 #include "tests/support/generators/bodies.h"
@@ -46,12 +45,6 @@ TEST(Threads, WorldsInThreadsOfTheirOwnDoNotDisturbEachOther) {
   }
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(found, expected);
-}
-
-TEST(Threads, WorldCanBeUsedInsideTheCallersParallelRegion) {
-  std::vector<std::vector<std::uint64_t>> found(4);
-  base::parallel_for(found.size(), 1, 2, [&](std::size_t i) { found[i] = hashes_of_crowd(i, 2); });
-  for (std::uint64_t seed = 0; seed < 4; ++seed) EXPECT_EQ(found[seed], hashes_of_crowd(seed, 1)) << seed;
 }
 
 // The caller's regions leave the worlds' own regions one thread, or two where the caller allows nesting.
