@@ -1,4 +1,8 @@
 // What compiles Eigen's decompositions stands here alone: a program that calls none of it does not link it.
+//
+// The header's functions have a name of their own here. A program in C++ may have compiled them for other instructions,
+// for which Eigen aligns a Stencil otherwise, and of two functions of one name the linker keeps one.
+#define solver solver_for_c
 #include <tact/solver.h>
 #include <tact/solver/debug_draw.h>
 

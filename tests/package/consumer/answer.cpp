@@ -1,10 +1,13 @@
 // Prints the hash of each step's report: bodies of uneven boxes that pass through each other. Their positions are sums
 // of small multiples of 1/1024, the same doubles however this file is compiled. Fails if its recording does not play
-// again, or a box whose facets have corners of their own is not welded.
+// again, a box whose facets have corners of their own is not welded, or C colours stencils otherwise than C++.
 #include <tact/recording.h>
+#include <tact/solver.h>
 #include <tact/tact.h>
+#include <tact/tact_c_solver.h>
 #include <tact/weld.h>
 
+#include <algorithm>
 #include <cinttypes>
 #include <cstdio>
 #include <sstream>
@@ -53,6 +56,22 @@ bool welds(const Eigen::Matrix3Xd& box, const Eigen::Matrix3Xi& facets) {
   return mesh.positions.cols() == 9 && mesh.facets.maxCoeff() == 7 && mesh.merged_vertices == 28;
 }
 
+// Whether a chain of stencils has the same colours in C and in C++.
+bool colors() {
+  std::vector<tact::solver::Stencil> chain(64);
+  std::vector<tact_stencil> chain_in_c(chain.size());
+  for (int i = 0; i < 64; ++i) {
+    chain[i] = {.vertices = {i, i + 1, -1, -1}, .weights = {-1.0, 1.0, 0.0, 0.0}, .normal = {0.0, 0.0, 1.0}};
+    std::ranges::copy(chain[i].vertices, chain_in_c[i].vertices);  // of two points, as zero says
+  }
+  std::vector<int> expected(chain.size()), found(chain.size());
+  const tact::solver::Coloring coloring = tact::solver::color(chain, 65);
+  for (int color = 0; color < coloring.count(); ++color) {
+    for (const int stencil : coloring.of(color)) expected[stencil] = color;
+  }
+  return tact_stencil_colors(chain_in_c.data(), chain_in_c.size(), 65, found.data()) == TACT_OK && found == expected;
+}
+
 }  // namespace
 
 int main() {
@@ -60,7 +79,7 @@ int main() {
   facets << 0, 0, 4, 4, 0, 0, 2, 2, 0, 0, 1, 1,  //
       2, 3, 5, 7, 1, 5, 6, 7, 4, 6, 3, 7,        //
       3, 1, 7, 6, 5, 4, 7, 3, 6, 2, 7, 5;
-  if (!welds(box_at_step(0, 0), facets)) return 1;
+  if (!welds(box_at_step(0, 0), facets) || !colors()) return 1;
   std::ostringstream recording;
   tact::Recorder recorder(recording);
   tact::World world({.threads = 2, .outputs = {.zones = true, .patches = true}});
