@@ -63,7 +63,7 @@ std::unique_ptr<SelfFilter> carried(const SelfFilter* last, std::span<const int>
   auto made = std::make_unique<SelfFilter>();
   made->rings = last->rings;
   made->rest_distance = last->rest_distance;
-  if (last->rest_positions.empty()) return made;
+  if (last->rest_distance == 0.0) return made;
   made->rest_positions.assign(positions.begin(), positions.end());
   for (std::size_t v = 0; v < vertex_map.size(); ++v) {
     if (vertex_map[v] < 0) continue;
