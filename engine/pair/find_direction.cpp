@@ -23,7 +23,6 @@ SurfaceShape* surface_of(const PairTask& pair) {
   if (pair.settings.direction != DirectionPolicy::smallest || !pair.tuning.carries_hulls) return nullptr;
   if (record.surface == nullptr) record.surface = std::make_unique<SurfaceShape>();
   if (!record.history.has_surface) record.surface->face_count = 0;
-  record.history.has_surface = true;
   return record.surface.get();
 }
 
@@ -36,7 +35,7 @@ FoundDirection carried_direction(const PairTask& pair, const DirectionSettings& 
 }
 
 FoundDirection smallest_direction(const PairTask& pair, const HullTest& hulls, const DirectionSettings& settings) {
-  const PairHistory& history = pair.record.history;
+  PairHistory& history = pair.record.history;
   PairWork& work = pair.work;
   const bool is_new = history.kind == PairHistory::Kind::none;
   const SmallestStart start{.preferred = is_new ? Vec3{0.0, 0.0, 1.0} : history.direction,
@@ -44,6 +43,7 @@ FoundDirection smallest_direction(const PairTask& pair, const HullTest& hulls, c
                             .shape = surface_of(pair),
                             .is_placed = hulls.surface_is_placed};
   const SmallestSeparation smallest = smallest_separation(pair.difference, start, work.smallest);
+  history.has_surface = start.shape != nullptr && start.shape->face_count > 0;
   work.counts.gjk_iterations += smallest.support_queries;
   FoundDirection direction{contact_direction(pair.difference, smallest.direction, smallest.face, settings, work.faces),
                            DirectionSource::smallest};

@@ -31,8 +31,7 @@ void renumber_vertices(PairRecord& record, std::span<const int> numbers, InSimpl
   PairHistory& history = record.history;
   if (!renumber(history.hulls.*in_simplex, history.hulls.count)) history.hulls = {};
   if (record.hulls_overlap && !renumber(record.face.*in_simplex, record.face.count)) record.face = {};
-  if (history.has_surface && record.surface->face_count > 0)
-    history.has_surface = renumber(*record.surface.*in_surface, record.surface->vertex_count);
+  if (history.has_surface) history.has_surface = renumber(*record.surface.*in_surface, record.surface->vertex_count);
 }
 
 }  // namespace
@@ -163,6 +162,7 @@ PairRecord& PairTable::new_record(BodyId a, BodyId b) {
   record.a = a;
   record.b = b;
   record.history = {};
+  record.slab_lower = record.slab_upper = 0.0;  // pairs with planes write none
   record.hulls_overlap = record.near = record.touching = record.is_renumbered = false;
   record.facet_pairs.clear();
   record.bare_pairs.clear();

@@ -12,8 +12,7 @@ using namespace narrowphase;
 bool still_overlap(const PairTask& pair, HullTest& test) {
   const PairRecord& record = pair.record;
   const PairHistory& history = record.history;
-  test.surface_is_placed = history.has_surface && record.surface->face_count > 0 &&
-                           pair.work.smallest.surface.start(pair.difference, *record.surface);
+  test.surface_is_placed = history.has_surface && pair.work.smallest.surface.start(pair.difference, *record.surface);
   if (test.surface_is_placed) return true;
   return history.kind == PairHistory::Kind::overlapping && holds_origin(pair.difference, history.hulls);
 }

@@ -22,8 +22,7 @@ class Checks {
 
   void history(const PairHistory& history) const {
     constexpr double kSkew = 1e-6;  // far more than rounding, and far less than what any search minds
-    const bool any = (a_is_plane_ || a_.vertex_count() > 0) && (b_is_plane_ || b_.vertex_count() > 0);
-    reader_.check(any && !(a_is_plane_ && b_is_plane_), "a body without facets has a history");
+    reader_.check(!(a_is_plane_ && b_is_plane_), "two planes have a history");
     reader_.check(history.kind == PairHistory::Kind::none || !(a_is_plane_ || b_is_plane_), "a plane has a history");
     simplex(history.hulls);
     if (history.kind == PairHistory::Kind::none) return;

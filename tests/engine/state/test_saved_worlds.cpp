@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "tests/support/checks/detection.h"
@@ -13,6 +14,7 @@
 #include "tests/support/checks/varied_calls.h"
 #include "tests/support/environment/environment.h"
 #include "tests/support/generators/bodies.h"
+#include "tests/support/generators/random.h"
 
 namespace tact::tests {
 namespace {
@@ -204,6 +206,62 @@ TEST(SavedStates, OfOtherFacetsHoldNoCurvesOfTheLast) {
   World other(settings);
   ASSERT_NO_THROW(other.restore(world.save()));
   EXPECT_EQ(other.detect().hash(), world.detect().hash());
+}
+
+// The pair of the last step is there until the next one, with a body that no facet is of.
+TEST(SavedStates, OfABodyThatLostAllItsFacetsAreRestored) {
+  World world(with_all_outputs(1));
+  const BodyId a = add_cube(world, 0.0);
+  add_cube(world, 0.5);
+  world.detect();
+  const std::vector<int> same{0, 1, 2, 3, 4, 5, 6, 7};
+  world.set_facets(a, cube(1.0, {0.0, 0.0, 0.0}).positions, Eigen::Matrix3Xi(3, 0), same);
+  World other(with_all_outputs(1));
+  ASSERT_NO_THROW(other.restore(world.save()));
+  EXPECT_EQ(other.detect().hash(), world.detect().hash());
+  EXPECT_EQ(other.save(), world.save());
+}
+
+// Surfaces of the search for the smallest separation that came to no end hold vertices, which then have other numbers.
+TEST(SavedStates, OfTheSmallestDirectionAreRestoredAfterFacetsChanged) {
+  Random random(31);
+  for (int i = 0; i < 400; ++i) {
+    Settings settings = with_all_outputs(1);
+    settings.direction = DirectionPolicy::smallest;
+    World world(settings), other(settings);
+    std::array<BodyId, 2> ids;
+    std::array<Mesh, 2> meshes;
+    for (std::size_t k = 0; k < 2; ++k) {
+      meshes[k].facets.resize(3, 4);
+      meshes[k].facets << 0, 0, 0, 1, 2, 1, 3, 2, 1, 3, 2, 3;
+      meshes[k].positions.resize(3, 4);
+      for (double& x : meshes[k].positions.reshaped()) x = random.uniform(-8.0, 8.0);
+      ids[k] =
+          world.add_body({.positions = meshes[k].positions, .facets = meshes[k].facets, .surface = Surface::sheet});
+    }
+    world.detect();
+    world.set_positions(ids[0], meshes[0].positions.array() + 0.5);
+    world.detect();
+    Eigen::Matrix3Xd corners(3, 3);
+    for (double& x : corners.reshaped()) x = random.uniform(-8.0, 8.0);
+    const std::vector<int> all_new{-1, -1, -1};
+    world.set_facets(ids[1], corners, Eigen::Vector3i(0, 1, 2), all_new);
+    ASSERT_NO_THROW(other.restore(world.save())) << i;
+    EXPECT_EQ(other.detect().hash(), world.detect().hash()) << i;
+    EXPECT_EQ(other.save(), world.save()) << i;
+  }
+}
+
+TEST(SavedStates, OfAPlaneHaveTheSameBytesWhateverRecordItsPairTook) {
+  World world(with_all_outputs(1)), other(with_all_outputs(1));
+  add_cube(world, 0.0);
+  const BodyId b = add_cube(world, 0.5);
+  world.detect();
+  world.remove_body(b);
+  world.add_plane({.offset = 0.2});
+  other.restore(world.save());
+  EXPECT_EQ(other.detect().hash(), world.detect().hash());
+  EXPECT_EQ(other.save(), world.save());
 }
 
 TEST(SavedStates, AreOfTheStateAlone) {
