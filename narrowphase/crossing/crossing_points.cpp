@@ -1,6 +1,7 @@
 #include "narrowphase/crossing/crossing_points.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "narrowphase/distance/edge_edge.h"
 #include "narrowphase/queries/mesh_queries.h"
@@ -117,6 +118,26 @@ std::optional<FeaturePoint> point_of_passed_edges(const Crossing& c, int edge_a,
   return point;
 }
 
+// The points of ways, from `ways` on, take the place of what is near between the same features. Of two ways' the deeper
+// one stays.
+void take_places_of_near(std::size_t ways, std::vector<FeaturePoint>& found) {
+  const auto begin = found.begin() + static_cast<std::ptrdiff_t>(ways);
+  const auto by_features = [](const FeaturePoint& x, const FeaturePoint& y) { return x.features() < y.features(); };
+  std::sort(begin, found.end(), [&](const FeaturePoint& x, const FeaturePoint& y) {
+    const auto order = [](const FeaturePoint& p) {
+      return std::tuple_cat(p.features(), std::tie(p.gap, p.normal.x, p.normal.y, p.normal.z));
+    };
+    return order(x) < order(y);
+  });
+  const auto end = std::unique(
+      begin, found.end(), [](const FeaturePoint& x, const FeaturePoint& y) { return x.features() == y.features(); });
+  const auto kept = std::remove_if(found.begin(), begin, [&](const FeaturePoint& near) {
+    return std::binary_search(begin, end, near, by_features);
+  });
+  found.erase(end, found.end());
+  found.erase(kept, begin);
+}
+
 void append_vertices(const Crossing& c, const CrossedSurface& own, const CrossedSurface& other,
                      std::vector<FeaturePoint>& found) {
   const FeaturePair kind = &own == &c.a() ? FeaturePair::vertex_facet : FeaturePair::facet_vertex;
@@ -164,6 +185,7 @@ void CrossingPoints::append_ways_apart(const Crossing& c, std::vector<FeaturePoi
   if (std::ranges::find(has_point_, 0) == has_point_.end()) return;
   kept_.find(c, groups);
   const ScaledMesh a = c.a().scaled(), b = c.b().scaled();
+  const std::size_t before = found.size();
   for (int group = 0; group < groups.count(); ++group) {
     if (has_point_[group] != 0) continue;
     groups.take_parts(group, part_a_, part_b_);
@@ -176,6 +198,7 @@ void CrossingPoints::append_ways_apart(const Crossing& c, std::vector<FeaturePoi
                               .depth = c.within},
                              found);
   }
+  take_places_of_near(before, found);
 }
 
 // Calls visit(edges) for two edges that have passed each other and may have a point, or for some that came before.

@@ -170,5 +170,22 @@ TEST(PointsOnce, OfABodyThatListsFacetsAgainAndMeetsItself) {
   }
 }
 
+// What crosses without any vertex past it has points of the way apart; vertices with such a point are near as well.
+TEST(PointsOnce, OfTrianglesThatCross) {
+  Random random(5);
+  std::size_t count = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::array<Mesh, 2> meshes;
+    for (Mesh& mesh : meshes) {
+      mesh.facets = Eigen::Vector3i(0, 1, 2);
+      mesh.positions.resize(3, 3);
+      for (double& x : mesh.positions.reshaped()) x = random.uniform(-1.0, 1.0);
+    }
+    World world = world_of(meshes[0], meshes[1], 0.2, Surface::sheet);
+    count += points_once(world.detect(), "triangles").size();
+  }
+  EXPECT_GT(count, 2000u);
+}
+
 }  // namespace
 }  // namespace tact::tests
