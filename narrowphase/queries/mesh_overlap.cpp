@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numeric>
@@ -10,6 +11,7 @@
 
 #include "narrowphase/curves/intersection_curves.h"
 #include "narrowphase/mesh/cluster_search.h"
+#include "narrowphase/numeric/unit_scale.h"
 #include "narrowphase/queries/facet_pair_descent.h"
 #include "narrowphase/triangles/triangle_triangle.h"
 
@@ -169,8 +171,8 @@ class SurfaceInside {
     });
   }
 
-  // Adds what it is of the volume around `origin`, and of the surface.
-  void add_to(OverlapSize& sum, Vec3 origin) {
+  // Adds what it is of the volume around `origin`, and of the surface, in a unit of 1 / `scale` metres.
+  void add_to(OverlapSize& sum, Vec3 origin, double scale) {
     std::vector<int> facets;
     for_each_cluster_in(mesh_, other_.box(), [&](int cluster) {
       for (int f = mesh_.facet_begin(cluster); f < mesh_.facet_end(cluster); ++f) {
@@ -182,10 +184,10 @@ class SurfaceInside {
     std::ranges::sort(facets, {}, [&](int f) { return mesh_.source_facet(f); });
     for (const int f : facets) connect(f);
     for (const int f : facets) {
-      const Triangle t = triangle_from(origin, f);
+      const Triangle t = triangle_from(origin, scale, f);
       const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
       if (!(norm_squared(normal) > 0.0)) continue;
-      const Vec3 inside = (0.5 * times_) * area_inside(f, t[0] + origin);
+      const Vec3 inside = (0.5 * times_) * area_inside(f, scale);
       sum.volume += turned_ * dot(t[0], inside) / 3.0;
       sum.area += dot(normalized(normal), inside);
     }
@@ -195,9 +197,9 @@ class SurfaceInside {
   static bool is_before(const EdgeCrossed& p, const EdgeCrossed& q) {
     return p.edge != q.edge ? p.edge < q.edge : p.facet < q.facet;
   }
-  Triangle triangle_from(Vec3 origin, int f) const {
+  Triangle triangle_from(Vec3 origin, double scale, int f) const {
     const Triangle t = mesh_.triangle(f);
-    return {t[0] - origin, t[1] - origin, t[2] - origin};
+    return {scale * (t[0] - origin), scale * (t[1] - origin), scale * (t[2] - origin)};
   }
 
   void take_node(const CurveCorner& corner) {
@@ -227,12 +229,13 @@ class SurfaceInside {
   }
 
   // Twice the part of a facet that is inside, as a vector.
-  Vec3 area_inside(int f, Vec3 origin) {
+  Vec3 area_inside(int f, double scale) {
     const NumberedTriangle t = numbered(mesh_, f);
+    const Vec3 origin = t[0].at;
     const Corners corners = mesh_.corners(f);
     Vec3 sum;
     const auto add = [&](Vec3 p, Vec3 q, int times) {
-      if (times != 0) sum = sum + static_cast<double>(times) * cross(p - origin, q - origin);
+      if (times != 0) sum = sum + static_cast<double>(times) * cross(scale * (p - origin), scale * (q - origin));
     };
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t next = (k + 1) % 3;
@@ -273,14 +276,18 @@ OverlapSize overlap_size(const ClosedMesh& a, const ClosedMesh& b) {
   IntersectionCurves curves;
   curves.find(*a.mesh, *b.mesh, pairs.pairs(), apart);
   PerturbedSigns signs = PerturbedSigns::of_two(apart);
-  const Vec3 origin = middle(intersection(a.mesh->box(), b.mesh->box()));
+  const Box common = intersection(a.mesh->box(), b.mesh->box());
+  const Vec3 origin = middle(common);
+  // In metres products of lengths would overflow, or be nothing.
+  const double scale = unit_scale(largest_coordinate(common.upper - common.lower));
   OverlapSize sum;
   SurfaceInside of_a(a, b, 0, signs), of_b(b, a, 1, signs);
   for (SurfaceInside* const surface : {&of_a, &of_b}) {
     surface->take(curves, pairs.pairs());
-    surface->add_to(sum, origin);
+    surface->add_to(sum, origin, scale);
   }
-  return {std::max(sum.volume, 0.0), std::max(sum.area, 0.0)};
+  const int exponent = -std::ilogb(scale);
+  return {std::ldexp(std::max(sum.volume, 0.0), 3 * exponent), std::ldexp(std::max(sum.area, 0.0), 2 * exponent)};
 }
 
 }  // namespace tact::narrowphase

@@ -38,6 +38,22 @@ double free_time(std::span<const TurningPoint> corners, Vec3 normal, double heig
   return least;
 }
 
+// Normals across features of two facets: of each facet, of an edge of each. Unit vectors, or zero.
+std::array<Vec3, 11> normals_across(const Triangle& t, const Triangle& u) {
+  std::array<Vec3, 11> normals;
+  std::size_t count = 0;
+  const auto add = [&](Vec3 p, Vec3 q) {
+    const Vec3 normal = cross(p, q);
+    const double length = norm(normal);
+    normals[count++] = length > 0.0 ? (1.0 / length) * normal : Vec3{};
+  };
+  add(t[1] - t[0], t[2] - t[0]);
+  add(u[1] - u[0], u[2] - u[0]);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) add(t[(i + 1) % 3] - t[i], u[(k + 1) % 3] - u[k]);
+  return normals;
+}
+
 class SweepSearch {
  public:
   SweepSearch(const ClusteredMesh& a, const TurningWay& way, const ClusteredMesh& b, double latest)
@@ -115,9 +131,18 @@ class SweepSearch {
       const NearestOfFacets nearest = nearest_of_facets(now, other);
       hit.weight_a = nearest.first, hit.weight_b = nearest.second;
       if (!(nearest.distance > 0.0)) return true;
-      hit.normal = (1.0 / nearest.distance) * nearest.way;
-      const double height = std::min({dot(hit.normal, other[0]), dot(hit.normal, other[1]), dot(hit.normal, other[2])});
-      const double free = free_time(corners, hit.normal, height, hit.time, turn);
+      double free = -1.0;
+      const auto try_normal = [&](Vec3 normal) {
+        const double height = std::min({dot(normal, other[0]), dot(normal, other[1]), dot(normal, other[2])});
+        if (const double along = free_time(corners, normal, height, hit.time, turn); along > free)
+          free = along, hit.normal = normal;
+      };
+      try_normal((1.0 / nearest.distance) * nearest.way);
+      // Between places that are very near, rounding turns that normal: of parallel facets some corner is then beyond.
+      if (free <= kShortest) {
+        for (const Vec3 normal : normals_across(now, other))
+          if (normal != Vec3{}) try_normal(dot(normal, nearest.way) < 0.0 ? -normal : normal);
+      }
       if (nearest.distance <= kMeet && free <= kShortest) return true;
       if (hit.time + free == hit.time) return true;
       hit.time += free;

@@ -252,6 +252,39 @@ TEST(BodyQueries, StraightSweepsAndPlanes) {
 }
 
 // A body is what two others have of it that fill a box around it.
+// Flat sides that stay parallel: between places that are very near no difference tells their normal.
+TEST(BodyQueries, FlatSidesMeetAtTheirTime) {
+  Random random(17);
+  int hits = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const auto corner = [&] { return Vec3{random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3)}; };
+    const auto whole = [&](Vec3 v) { return i % 2 == 0 ? Vec3{std::round(v.x), std::round(v.y), std::round(v.z)} : v; };
+    const std::array<Vec3, 2> lower{whole(corner()), whole(corner())};
+    const std::array<Vec3, 2> upper{lower[0] + Vec3{1, 2, 3}, lower[1] + Vec3{2, 1, 6}};
+    const Vec3 way = 2.0 * whole(corner());
+    double enters = 0.0, leaves = 1.0, speed = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double first = lower[1][axis] - upper[0][axis], last = upper[1][axis] - lower[0][axis];
+      if (way[axis] == 0.0) {
+        if (first > -0.01 || last < 0.01) leaves = -1.0;
+        continue;
+      }
+      const double enters_here = std::min(first / way[axis], last / way[axis]);
+      if (enters_here > enters) enters = enters_here, speed = std::abs(way[axis]);
+      leaves = std::min(leaves, std::max(first / way[axis], last / way[axis]));
+    }
+    if (!(enters > 0.01 && enters < leaves - 0.01)) continue;  // beside it, past it, or along it
+    World world;
+    const BodyId a = add(world, box(lower[0], upper[0]));
+    add(world, box(lower[1], upper[1]));
+    const double found = world.sweep({.body = a, .way = {way.x, way.y, way.z}}).fraction;
+    EXPECT_LE(found, enters + 1e-15 / speed) << i;
+    EXPECT_GE(found, enters - 2e-12 / speed) << i;
+    ++hits;
+  }
+  EXPECT_GT(hits, 300);
+}
+
 TEST(BodyQueries, OverlapsWithTwoHalvesAreTheWhole) {
   Random random(8);
   const auto whole = [](const Mesh& mesh) {
@@ -343,6 +376,10 @@ TEST(BodyQueries, HugeAndTinyBodiesAreMeasured) {
                  b = add(world, scaled(box({3, 0, 0}, {4, 1, 1}), unit));
     EXPECT_EQ(world.distance({a, b}).distance, 2.0 * unit);
     EXPECT_NEAR(world.sweep({.body = a, .way = {4.0 * unit, 0, 0}}).fraction, 0.5, 1e-12);
+    const BodyId c = add(world, scaled(box({0.5, 0.5, 0.5}, {2, 2, 2}), unit));
+    const Overlap overlap = world.overlap(a, c);
+    EXPECT_NEAR(overlap.volume / unit / unit / unit, 0.125, 1e-14);
+    EXPECT_NEAR(overlap.area / unit / unit, 1.5, 1e-14);
   }
 }
 
