@@ -66,8 +66,9 @@ void PartingSearch::take_vertex(const MovingMesh& mesh, int vertex, Star& star) 
   // Those of which planes are looked for come first: the caller's first, so that no grouping decides.
   if (neighbors.size() > kMostNeighbors) {
     neighbors_.assign(neighbors.begin(), neighbors.end());
-    std::ranges::nth_element(neighbors_, neighbors_.begin() + kMostNeighbors, {},
-                             [&](int v) { return mesh.mesh->source_vertex(v); });
+    const auto of_caller = [&](int v) { return mesh.mesh->source_vertex(v); };
+    std::nth_element(neighbors_.begin(), neighbors_.begin() + kMostNeighbors, neighbors_.end(),
+                     [&](int x, int y) { return of_caller(x) < of_caller(y); });  // ranges:: is not in older libc++
     neighbors = neighbors_;
   }
   for (const int next : neighbors) star.vertices.push_back(mesh.vertex(next));

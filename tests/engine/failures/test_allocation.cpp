@@ -421,7 +421,7 @@ TEST(Allocation, SteadyStepsWithAPairForAllThreadsTakeNone) {
 // A pair of so many clusters that trees find those that are near: what builds them takes memory for each, and nothing
 // else does.
 TEST(Allocation, SteadyStepsWithTreesTakeOnlyTheirBuilders) {
-#ifdef TACT_EMBREE_MAJOR
+#if !defined(TACT_WITHOUT_EMBREE)
   constexpr long kTakenInAStep = 4;
 #else
   constexpr long kTakenInAStep = 9;  // by three trees of up to 512 clusters, of which a sheet has 1250

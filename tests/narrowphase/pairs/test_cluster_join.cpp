@@ -52,7 +52,7 @@ TEST(ClusterJoin, AscendingPairsAreThoseOfAll) {
   }
 }
 
-#ifdef TACT_EMBREE_MAJOR
+#if !defined(TACT_WITHOUT_EMBREE)
 TEST(ClusterJoin, EmbreeIsNotStartedByALoop) {
   ClusterJoin join;
   EmbreeDevice device;
