@@ -58,6 +58,8 @@ class JoinedMinima {
   std::vector<std::uint8_t> of(const Report& report) {
     for (const Contact& contact : report.contacts()) {
       for (const ContactPoint& point : contact.points()) {
+        check_there(contact.a, point.a_vertices);
+        check_there(contact.b, point.b_vertices);
         if (point.minimum) add_sides(contact, point);
         minima_.push_back(point.minimum ? 1 : 0);
       }
@@ -76,6 +78,12 @@ class JoinedMinima {
   }
 
  private:
+  // Refuses bodies that were removed, and vertices that are there no more.
+  void check_there(BodyId body, const std::array<int, 3>& vertices) {
+    const MeshCopy& mesh = meshes_.positions(body);
+    for (std::size_t k = 0; k < 3 && vertices[k] >= 0; ++k) mesh.vertex(vertices[k]);
+  }
+
   void add_sides(const Contact& contact, const ContactPoint& point) {
     const Vec3 n = from_eigen(point.normal);
     const bool on_plane_a = point.kind == FeaturePair::plane_vertex,

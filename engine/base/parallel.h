@@ -34,7 +34,7 @@ namespace tact::base {
 // The number of threads that `threads = 0` stands for.
 inline int default_threads() {
 #if !defined(TACT_WITHOUT_OPENMP)
-  return omp_get_max_threads();
+  return std::clamp(omp_get_max_threads(), 1, 1024);  // as Settings::threads
 #else
   return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 1024u));
 #endif

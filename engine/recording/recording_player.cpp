@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,8 @@ constexpr const char* kNoMemory = "playing a recording ran out of memory";
 struct RecordingPlayer::Implementation {
   Implementation(std::string_view bytes, const PlayOptions& given) : reader(bytes), options(given) {
     const base::FloatingPointMode mode;
+    if (options.threads && (*options.threads < 0 || *options.threads > 1024))
+      throw Error(ErrorCode::invalid_argument, "threads is " + std::to_string(*options.threads) + ", not 0 to 1024");
     try {
       read_head(bytes);
       if (read_kind() != RecordKind::settings) fail("the first record is not one of settings");

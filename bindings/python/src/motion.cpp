@@ -72,7 +72,7 @@ void define_motion(py::module_& module) {
                     "not cross there")
       .def_readonly("bounds", &MotionArrays::bounds,
                     "for each vertex of a body how far along its way it may go, 0 to 1, if bounds were requested. (V,) "
-                    "by body that moved. All may go so far at once, and meet nothing")
+                    "by body that moved. All may go so far at once, and come through nothing")
       .def_readonly("stats", &MotionArrays::stats, "counts and times. By name, times in milliseconds")
       .def("__len__", [](const MotionArrays& motion) { return motion.times.size(); })
       .def("__repr__", [](const MotionArrays& motion) {

@@ -168,7 +168,7 @@ void define_queries(py::module_& module, WorldClass& world) {
       .def("overlap_boxes", overlap_boxes, py::arg("lower"), py::arg("upper"), py::kw_only(), layer, mask,
            "finds the facets in many boxes in parallel. (N, 3) both; an array a box")
       .def("bodies_containing", bodies_containing, py::arg("point"), py::kw_only(), layer, mask,
-           "the closed bodies that contain a point or have it on their surface, decided exactly; ignores `within`")
+           "the closed bodies that contain a point or have it on their surface, decided exactly, at any `within`")
       .def("bodies_containing_each", bodies_containing_each, py::arg("points"), py::kw_only(), layer, mask,
            "finds the bodies that contain many points in parallel. (N, 3); a list a "
            "point");

@@ -62,7 +62,7 @@ void define_surface_check(py::module_& module, WorldClass& world) {
       .def_property_readonly("unused_vertices", numbers_of<&SurfaceCheck::unused_vertices>,
                              "vertices of no facet, edge or point")
       .def("is_solid", &SurfaceCheck::is_solid,
-           "whether it bounds a solid: every component is closed, and none is inside out")
+           "whether it bounds a solid: there is a component, every one is closed, and none is inside out")
       .def("is_clean", &SurfaceCheck::is_clean,
            "whether every list of faults is empty; borders are none, nor are unused vertices");
   world.def("check_surface", check_surface, py::arg("body"), py::arg("sliver") = 1e-6,

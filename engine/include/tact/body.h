@@ -51,7 +51,7 @@ struct BodyDefinition {
   Edges edges = Edges::none();
   /// Vertices that stand alone: grains. With a margin they are balls.
   std::span<const int> points = {};
-  /// Of the facets alone: edges and points have no inside. A body without facets is a sheet.
+  /// Of the facets alone: edges and points have no inside. A body of edges or points alone is a sheet.
   Surface surface = Surface::closed;
   Motion motion = Motion::deformable;
   std::string name = {};             ///< for messages; by default "body <index>"

@@ -62,7 +62,7 @@ struct ContactSums {
 
 /// Adds up the points of a world's last report, at the current positions. Points without an impulse have none; impulses
 /// without a point are left out. Errors: invalid_argument (an id twice), stale_body (a body of the report was removed),
-/// wrong_order (its facets have changed since), out_of_memory.
+/// wrong_order (set_facets() took a vertex of a point away), out_of_memory.
 TACT_API ContactSums sum_contacts(const World& world, const Report& report,
                                   std::span<const PointImpulse> impulses = {});
 

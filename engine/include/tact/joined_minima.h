@@ -19,8 +19,8 @@ struct JoinedSurfaces {
 /// Returns for each contact point of a world's last report, in the order of copy_points(), 1 if it is a minimum also of
 /// joined surfaces, else 0. It is one if ContactPoint::minimum is set, no joined facet at either of its places leads
 /// nearer along its normal, and no joined body lies behind the facet. A normal across a facet of its own body is kept
-/// whatever leads nearer. Errors: invalid_argument, stale_body (a body of the report was removed), wrong_order (its
-/// facets have changed since), out_of_memory.
+/// whatever leads nearer. Errors: invalid_argument, stale_body (a body of the report was removed), wrong_order
+/// (set_facets() took a vertex of a point away), out_of_memory.
 TACT_API std::vector<std::uint8_t> joined_minima(const World& world, const Report& report,
                                                  const JoinedSurfaces& joined = {});
 

@@ -8,7 +8,8 @@
 namespace tact {
 
 /// What a step found, with memory of its own: it stays as it is while the world goes on, changes or is destroyed. Many
-/// threads may read it at once. Two of them in turns let other threads read one step while the next one runs.
+/// threads may read it at once. Two of them in turns let other threads read one step while the next one runs. One that
+/// was moved to another can only be assigned to and destroyed.
 class TACT_API KeptReport {
  public:
   /// An empty one. Errors: out_of_memory.

@@ -79,7 +79,7 @@ class TACT_API MotionReport {
   /// Returns the pairs of bodies that meet, sorted by (a, b).
   std::span<const ImpactPair> pairs() const { return pairs_; }
   /// Returns for each vertex of a body how far along its way it may go, 0 to 1, if bounds were requested. All may go so
-  /// far at once, and meet nothing. It is empty for a body that did not move.
+  /// far at once, and come through nothing. It is empty for a body that did not move.
   std::span<const double> bounds(BodyId body) const;
   /// Returns counts and times.
   const MotionStats& stats() const { return stats_; }

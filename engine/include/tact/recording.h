@@ -79,10 +79,11 @@ struct PlayOptions {
   Outputs outputs = {};             ///< added to those of the recording; zones and points change the hashes
 };
 
-/// Runs a recording again, step by step.
+/// Runs a recording again, step by step. One that was moved to another can only be assigned to and destroyed.
 class TACT_API RecordingPlayer {
  public:
-  /// Reads the head of `bytes`, which outlives the player. Errors: bad_recording, out_of_memory.
+  /// Reads the head of `bytes`, which outlives the player. Errors: bad_recording, invalid_argument
+  /// (PlayOptions::threads is not 0 to 1024), out_of_memory.
   explicit RecordingPlayer(std::string_view bytes, const PlayOptions& options = {});
   /// The same of a string that is given away: the player keeps it.
   template <std::same_as<std::string> Bytes>

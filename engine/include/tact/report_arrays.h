@@ -76,7 +76,7 @@ TACT_API std::size_t facet_pair_count(const Report& report);
 /// a row for each of point_count()).
 TACT_API void copy_points(const Report& report, const PointArrays& arrays);
 /// Fills arrays with the labels of the points of all contacts of a world's last report, in their order. Errors:
-/// wrong_size, stale_body (a body of the report was removed), wrong_order (its facets have changed since).
+/// wrong_size, stale_body (a body of the report was removed), wrong_order (set_facets() took a vertex of a point away).
 TACT_API void copy_point_labels(const World& world, const Report& report, const PointLabelArrays& arrays);
 /// Fills arrays with the pairs within reach of all contacts, in their order. Errors: wrong_size.
 TACT_API void copy_reach_pairs(const Report& report, const ReachPairArrays& arrays);

@@ -30,7 +30,7 @@ struct SurfaceCheck {
   std::vector<int> slivers;                           ///< facets of hardly any height, or of no area
   std::vector<int> unused_vertices;                   ///< vertices of no facet, edge or point
 
-  /// Whether it bounds a solid: every component is closed, and none is inside out.
+  /// Whether it bounds a solid: there is a component, every one is closed, and none is inside out.
   TACT_API bool is_solid() const;
   /// Whether every list of faults is empty; borders are none, nor are unused vertices.
   TACT_API bool is_clean() const;

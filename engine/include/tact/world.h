@@ -171,7 +171,7 @@ class TACT_API World {
   void closest_points(std::span<const PointQuery> queries, std::span<ClosestPoint> answers) const;
   /// Returns the facets that share a point with a box, decided exactly; sorted by body and facet.
   std::vector<FacetOfBody> overlap_box(const BoxQuery& query) const;
-  /// Returns the closed bodies that contain a point or have it on their surface, decided exactly; ignores `within`.
+  /// Returns the closed bodies that contain a point or have it on their surface, decided exactly, at any `within`.
   std::vector<BodyId> bodies_containing(const PointQuery& query) const;
   /// Finds the facets in many boxes in parallel. It replaces what the answers held.
   void overlap_boxes(std::span<const BoxQuery> queries, std::span<std::vector<FacetOfBody>> answers) const;

@@ -134,6 +134,20 @@ TEST(Recording, AnyNumberOfThreadsPlaysTheSameHashes) {
   }
 }
 
+TEST(Recording, WrongNumbersOfThreadsAreNoFaultOfTheRecording) {
+  Recorded recorded(1);
+  make_calls(recorded.world);
+  for (const int threads : {-5, 1025}) {
+    try {
+      play(recorded.out.str(), threads);
+      ADD_FAILURE() << threads;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
+      EXPECT_EQ(std::string(error.what()), "threads is " + std::to_string(threads) + ", not 0 to 1024");
+    }
+  }
+}
+
 TEST(Recording, PlaysTheBodiesAsTheyWere) {
   const std::string bytes = recording();
   RecordingPlayer player(bytes);

@@ -66,7 +66,7 @@ TACT_C_API tact_error tact_motion_impacts(tact_world world, const tact_impact** 
 TACT_C_API tact_error tact_motion_pairs(tact_world world, size_t* count);
 TACT_C_API tact_error tact_motion_pair(tact_world world, size_t index, tact_impact_pair* pair);
 /** Gives for each vertex of a body how far along its way it may go, 0 to 1, if bounds were requested. All may go so
- * far at once, and meet nothing. It is empty for a body that did not move. */
+ * far at once, and come through nothing. It is empty for a body that did not move. */
 TACT_C_API tact_error tact_motion_bounds(tact_world world, tact_body body, const double** bounds, size_t* count);
 /** Gives counts and times. */
 TACT_C_API tact_error tact_motion_stats(tact_world world, tact_motion_statistics* statistics);

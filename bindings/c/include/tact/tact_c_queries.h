@@ -148,7 +148,7 @@ TACT_C_API tact_error tact_world_cast_ray_all(tact_world world, const tact_ray* 
  * of them, and how many there are. */
 TACT_C_API tact_error tact_world_overlap_box(tact_world world, const tact_box_query* query, tact_facet_of_body* facets,
                                              size_t capacity, size_t* count);
-/** Gives the closed bodies that contain a point or have it on their surface, decided exactly; ignores `within`. Writes
+/** Gives the closed bodies that contain a point or have it on their surface, decided exactly, at any `within`. Writes
  * up to `capacity` of them, and how many there are. */
 TACT_C_API tact_error tact_world_bodies_containing(tact_world world, const tact_point_query* query, tact_body* bodies,
                                                    size_t capacity, size_t* count);

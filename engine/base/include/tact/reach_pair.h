@@ -10,6 +10,7 @@ namespace tact {
 /// A vertex and a facet, or two edges, that are nearer to each other than the sum of the margins. Of one body, features
 /// without a common vertex.
 struct ReachPair {
+  /// vertex_facet, facet_vertex or edge_edge: a vertex and an edge or a vertex of no facet go by the first two.
   FeaturePair kind = FeaturePair::vertex_facet;
   /// Vertices of the feature of a, each once; -1 fills up. Those of edges ascend.
   std::array<int, 3> a_vertices{-1, -1, -1};
