@@ -102,6 +102,12 @@ void check_outputs(const CheckOptions& options, const std::vector<BodyFrames>& b
   files.add_output("--record", options.record);
   files.add_output("--out", options.view.file);
   if (options.vtk.empty()) return;
+  for (const std::filesystem::path& mesh : options.meshes) {
+    std::error_code not_there;
+    if (std::filesystem::is_directory(mesh, not_there) && std::filesystem::equivalent(mesh, options.vtk, not_there))
+      throw UsageError(
+          fmt::format("--vtk: {} is read, and what is written there would be frames of it", mesh.string()));
+  }
   for (const BodyFrames& body : bodies) {
     for (const std::filesystem::path& file : body.files) {
       std::error_code not_there;

@@ -72,6 +72,7 @@ void check_outputs(const RunOptions& run) {
   files.add_output("--gltf", options.gltf);
   files.add_output("--record", run.record);
   files.add_output("--view", options.view.file);
+  check_page_options(options.view);
 }
 
 // What the page shows besides is found where there is one.
@@ -180,6 +181,8 @@ void add_run_command(CLI::App& program) {
       ->default_str(kPageOfScene)
       ->check(refuse_empty_name);
   add_page_options(*command, outputs.view);
+  for (const char* of_page : {"--from", "--to", "--few-points", "--largest"})
+    command->get_option(of_page)->needs(command->get_option("--view"));
   add_trace_option(*command, outputs.trace);
   add_record_option(*command, options->record);
   command->callback([options, no_pictures] {

@@ -143,9 +143,28 @@ void check_use(const ViewCommandOptions& options) {
   if (options.opens && (options.page.file == "-" || options.json == "-")) {
     throw UsageError("--open: nothing can go to standard output");
   }
-  if (options.page.to < options.page.from) {
-    throw UsageError(fmt::format("--to: {} is before --from {}", options.page.to, options.page.from));
+  check_page_options(options.page);
+}
+
+enum class Shown { recording, scene, meshes };
+
+// What would do nothing is refused.
+void check_is_used(const ViewCommandOptions& options, Shown shown) {
+  const auto refuse = [](bool given, const char* option, const char* what) {
+    if (given) throw UsageError(fmt::format("{}: it is for {}", option, what));
+  };
+  if (shown != Shown::meshes) {
+    refuse(options.check.weld, "--weld", "meshes");
+    refuse(!options.check.sheets.empty(), "--sheet", "meshes");
+    refuse(!options.check.margins.empty(), "--margin", "meshes");
+    refuse(!options.check.selves.empty(), "--self", "meshes");
   }
+  if (shown != Shown::scene) {
+    refuse(options.size > 0, "--size", "scenes");
+    refuse(options.continuous, "--continuous", "scenes");
+  }
+  refuse(shown == Shown::recording && options.frames > 0, "--frames", "scenes and meshes");
+  refuse(shown == Shown::scene && options.outputs.curves, "--curves", "recordings and meshes");
 }
 
 void add_mesh_options(CLI::App& command, CheckOptions& check) {
@@ -170,9 +189,13 @@ void view(const ViewCommandOptions& options, std::ostream& out) {
   const bool alone = options.what.size() == 1;
   std::error_code ignored;
   const bool exists = std::filesystem::exists(first, ignored);
-  if (alone && exists && is_recording(first)) {
+  const Shown shown = alone && exists && is_recording(first)             ? Shown::recording
+                      : alone && !exists && find_scene(first) != nullptr ? Shown::scene
+                                                                         : Shown::meshes;
+  check_is_used(options, shown);
+  if (shown == Shown::recording) {
     view_recording(options, page, out);
-  } else if (alone && !exists && find_scene(first) != nullptr) {
+  } else if (shown == Shown::scene) {
     view_scene(options, page, out);
   } else {
     view_meshes(options, page, out);
@@ -181,6 +204,10 @@ void view(const ViewCommandOptions& options, std::ostream& out) {
 }
 
 std::string page_of(const std::string& name) { return "tact-" + name + ".html"; }
+
+void check_page_options(const ViewOptions& page) {
+  if (page.to < page.from) throw UsageError(fmt::format("--to: {} is before --from {}", page.to, page.from));
+}
 
 void add_page_options(CLI::App& command, ViewOptions& page) {
   constexpr int kMost = std::numeric_limits<int>::max();

@@ -39,7 +39,9 @@ void view(const ViewCommandOptions& options, std::ostream& out);
 void add_view_command(CLI::App& program);
 // The page that is written where no other is named: tact-NAME.html.
 std::string page_of(const std::string& name);
-// --every, --from, --to and --largest, of a page.
+// --from, --to, --few-points and --largest, of a page.
 void add_page_options(CLI::App& command, ViewOptions& page);
+// Errors: UsageError.
+void check_page_options(const ViewOptions& page);
 
 }  // namespace tact::scenes

@@ -188,6 +188,7 @@ BodyFrames part_of(const BodyFrames& whole, const std::vector<int>& numbers) {
   }
   BodyFrames part{.name = {}, .files = whole.files, .moves = whole.moves, .times = whole.times};
   part.facets = whole.facets(Eigen::all, facets).unaryExpr(number_of);
+  part.vertices.assign(vertices.begin(), vertices.end());
   for (const Eigen::Matrix3Xd& positions : whole.positions)
     part.positions.emplace_back(positions(Eigen::all, vertices));
   return part;

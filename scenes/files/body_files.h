@@ -27,6 +27,7 @@ struct BodyFrames {
   std::vector<std::filesystem::path> files = {};  // one a frame
   std::vector<Eigen::Matrix3Xd> positions = {};   // 3 x V, metres, one a frame
   Eigen::Matrix3Xi facets = {};                   // 3 x F, the same in all frames
+  std::vector<int> vertices = {};                 // the number of each vertex in the files; empty: its own
   Surface surface = Surface::closed;
   bool moves = false;              // a folder, or a series of several frames
   std::vector<double> times = {};  // of the frames of a series, seconds; else empty

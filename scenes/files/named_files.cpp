@@ -16,7 +16,8 @@ bool are_one(const fs::path& a, const fs::path& b) {
   std::error_code not_there;
   if (fs::equivalent(a, b, not_there)) return true;
   std::error_code unreadable;
-  const fs::path name_a = fs::weakly_canonical(a, unreadable), name_b = fs::weakly_canonical(b, unreadable);
+  const auto whole_name = [&](const fs::path& file) { return fs::weakly_canonical(fs::absolute(file), unreadable); };
+  const fs::path name_a = whole_name(a), name_b = whole_name(b);
   return !unreadable && name_a == name_b;
 }
 

@@ -77,6 +77,11 @@ TEST_F(CheckCommand, NoFileIsWrittenOver) {
   const std::string out = (folder_.path() / "out").string();
   EXPECT_EQ(message({.meshes = {a_, b_}, .json = out, .record = out}), "--json and --record: both would be " + out);
   EXPECT_EQ(message({.meshes = {a_, b_}, .json = "/dev/null", .record = "/dev/null"}), "");
+  const std::filesystem::path frames = folder_.path() / "frames";
+  std::filesystem::create_directory(frames);
+  std::filesystem::copy_file(a_, frames / "1.obj");
+  EXPECT_EQ(message({.meshes = {frames, b_}, .vtk = frames.string()}),
+            "--vtk: " + frames.string() + " is read, and what is written there would be frames of it");
 }
 
 TEST_F(CheckCommand, JsonHasTheDocumentedShape) {

@@ -75,7 +75,7 @@ int status_of(const tests::TemporaryFolder& folder, const std::string& line) {
 void write_program(const tests::TemporaryFolder& folder) {
   const std::string frames = std::getenv("TACT_PRINTED_IN_FULL") == nullptr ? "2" : "";
   const fs::path program = folder.write("bin/tact", "#!/bin/sh\nframes='" + frames + R"('
-case "$1" in run|view) ;; *) frames= ;; esac
+case "$1 $2" in *.tactrec) frames= ;; run*|view*) ;; *) frames= ;; esac
 if [ "$frames" ]; then
   left=$#
   while [ $left -gt 0 ]; do

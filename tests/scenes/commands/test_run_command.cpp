@@ -276,6 +276,8 @@ TEST_F(RunCommand, WrongUsageIsNamed) {
             "--json and --trace: both would be no/../no/x");
   EXPECT_EQ(message({.scene = "pile", .record = "y", .outputs = {.contacts = "y"}}),
             "--contacts and --record: both would be y");
+  EXPECT_EQ(message({.scene = "pile", .record = "y", .outputs = {.contacts = "./y"}}),
+            "--contacts and --record: both would be y");
 }
 
 TEST(ScenesCommand, ListsEverySceneWithItsSizes) {
