@@ -258,3 +258,12 @@ def test_cuda_arrays_are_refused_by_name():
 
     with pytest.raises(TypeError, match="device CUDA"):
         tact.World().add_body(Cuda(), grid(4)[1])
+
+
+def test_rows_that_share_numbers_are_copied():
+    numbers = np.random.default_rng(7).uniform(size=40)
+    window = np.lib.stride_tricks.sliding_window_view(numbers, 3)[:4]
+    world = tact.World()
+    _, facets = tetrahedron()
+    body = world.add_body(window, facets)
+    assert world.positions(body).tolist() == window.tolist()

@@ -96,6 +96,72 @@ def test_trouble_names_file_line_and_body(moving):
         tact.check()
 
 
+def test_check_loses_no_file(moving):
+    still = moving / "still.obj"
+    before = still.read_bytes()
+    for option in ("json", "record"):
+        with pytest.raises(ValueError, match=f"{option}: .*still.obj is read, and would be lost"):
+            tact.check(still, **{option: still})
+    with pytest.raises(ValueError, match="json and record: both would be"):
+        tact.check(still, json=moving / "out", record=f"{moving}/./out")
+    with pytest.raises(FileNotFoundError):
+        tact.check(still, moving / "mover", json=moving / "no" / "out.json")
+    assert still.read_bytes() == before and not (moving / "out").exists()
+    result = tact.check(still, json=moving / "out.json")
+    assert (moving / "out.json").read_text() == result.json
+    assert sorted(path.name for path in moving.iterdir()) == ["mover", "out.json", "still.obj"]
+
+
+def test_sequences_that_do_not_fit_are_refused():
+    cases = [
+        (lambda: tact.MeshSequence("x", [], FACETS), "x: it has no frames"),
+        (lambda: tact.check(tact.MeshSequence("x", [CORNERS, CORNERS], FACETS, files=["a"])), "x: 1 files for 2 frames"),
+        (lambda: tact.check(tact.MeshSequence("x", [CORNERS] * 3, FACETS, times=[0, 1])), "x: 2 times for 3 frames"),
+        (lambda: tact.check(tact.Mesh("x", CORNERS, FACETS, np.arange(3))), "x: vertices has 3 numbers for 4 vertices"),
+        (lambda: tact.check(tact.Mesh("x", CORNERS, FACETS), frames=0), "frames is 0"),
+        (lambda: tact.check(tact.Mesh("x", CORNERS, FACETS), accuracy="foo"), "accuracy is 'foo', not one of: .*exact"),
+    ]
+    for call, says in cases:
+        with pytest.raises(ValueError, match=says):
+            call()
+
+
+def test_bodies_keep_the_numbers_of_their_vertices(moving):
+    of_part = tact.Mesh("part", CORNERS, FACETS, np.array([7, 3, 5, 1], dtype=np.int32))
+    assert tact.check(of_part).bodies[0].vertices.tolist() == [7, 3, 5, 1]
+    twice = tact.Mesh("twice", np.concatenate([CORNERS, CORNERS]), np.concatenate([FACETS[:2], FACETS[2:] + 4]), np.arange(8) + 10)
+    assert tact.check(twice, weld=True).bodies[0].vertices.tolist() == [10, 11, 12, 13]
+    points = "0 0 0 5 0 0 1 0 0 0 1 0 6 0 0 5 1 0"
+    (moving / "two.vtp").write_text(f"""<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian"><PolyData>
+<Piece NumberOfPoints="6" NumberOfPolys="2"><PointData><DataArray type="Int32" Name="body" format="ascii">0 1 0 0 1 1</DataArray>
+</PointData><Points><DataArray type="Float32" NumberOfComponents="3" format="ascii">{points}</DataArray></Points><Polys>
+<DataArray type="Int32" Name="connectivity" format="ascii">0 2 3 1 4 5</DataArray>
+<DataArray type="Int32" Name="offsets" format="ascii">3 6</DataArray></Polys></Piece></PolyData></VTKFile>""")
+    assert [body.vertices.tolist() for body in tact.read_sequence(moving / "two.vtp")] == [[0, 2, 3], [1, 4, 5]]
+
+
+def test_bodies_are_counted_from_the_end_as_in_lists(moving):
+    frame = tact.check(moving / "still.obj", moving / "mover", margins=0.05, points=True)[3]
+    assert frame.crossing(-1).tolist() == frame.crossing(1).tolist() and frame.crossing(1).any()
+    assert frame.gaps(-2).tolist() == frame.gaps(0).tolist()
+    with pytest.raises(IndexError):
+        frame.gaps(-3)
+
+
+def test_names_may_be_any_bytes(tmp_path):
+    path = os.path.join(os.fsencode(tmp_path), b"\xff\xfe.obj")
+    with open(path, "wb") as file:
+        file.write(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    mesh = tact.read(os.fsdecode(path))
+    assert os.fsencode(mesh.name) == b"\xff\xfe.obj"
+    result = tact.check(mesh, sheets=mesh.name)
+    assert result.world.name(result.ids[0]) == mesh.name
+    with open(path, "ab") as file:
+        file.write(b"f 1 2 9\n")
+    with pytest.raises(ValueError, match=r"\\xff\\xfe.obj:5"):
+        tact.read(os.fsdecode(path))
+
+
 def test_cells_with_a_volume_give_their_surface(tmp_path):
     meshio = pytest.importorskip("meshio")
     corners = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)] + [[9, 9, 9]], float)
@@ -149,6 +215,19 @@ def test_pages_show_a_world_and_a_recording(moving):
     assert (moving / "page.html").read_text() == page.html
     with pytest.raises(ValueError, match="still.obj: byte 0: not a recording"):
         tact.view(moving / "still.obj")
+
+
+def test_wrong_steps_of_a_page_are_refused(moving):
+    tact.check(moving / "still.obj", moving / "mover", record=moving / "run.rec")
+    for options, says in [({"every": 0}, "every is 0"), ({"start": -1}, "start is -1"), ({"start": 2, "stop": 1}, "stop is 1, before start, 2")]:
+        with pytest.raises(ValueError, match=says):
+            tact.view(moving / "run.rec", **options)
+    with pytest.raises(TypeError, match="for recordings"):
+        tact.view(tact.World(), points=True)
+    with pytest.raises(FileNotFoundError):
+        tact.RecordingPlayer(moving / "nope")
+    with pytest.raises(FileNotFoundError):
+        tact.World().record(str(moving / "no" / "x"))
 
 
 def test_notebooks_show_tables(moving):

@@ -90,8 +90,63 @@ def test_wrong_use_is_said(draped):
         report.stencils({})
     with pytest.raises(ValueError, match="limits"):
         stencils.friction(x, [1.0], 1e-3)
-    with pytest.raises(ValueError, match="12 numbers"):
+    with pytest.raises(ValueError, match="gradients has shape"):
         stencils.add_gradients(np.zeros(5), 3)
+
+
+def test_first_rows_are_of_the_bodies_of_the_report():
+    positions, facets = tetrahedron()
+    for others in range(4):
+        world = tact.World(tact.Settings(points=True))
+        old, b = (world.add_body(positions + [way, way, way], facets, margin=0.1) for way in (0.0, 0.2))
+        foreign = tact.World().add_body(positions, facets)
+        world.remove_body(old)
+        a = world.add_body(positions, facets, margin=0.1)
+        first = {old: 0, b: 4, a: 8, foreign: 50}
+        for k in range(others):  # so that hashes of ids fall otherwise
+            first[world.add_body(positions + [50 * k + 50, 0, 0], facets)] = 100 + k
+        report = world.detect()
+        expected = report.stencils({a: 8, b: 4}).vertices.tolist()
+        assert report.stencils(first).vertices.tolist() == expected
+        assert min(min(v for v in row if v >= 0) for row in expected) >= 4
+
+
+def test_planes_need_no_first_row():
+    positions, facets = tetrahedron()
+    world = tact.World(tact.Settings(points=True))
+    body = world.add_body(positions, facets, margin=0.1)
+    world.add_plane([0, 0, 1], 0.0, margin=0.1)
+    report = world.detect()
+    assert len(report.points) == 3
+    assert len(report.stencils({body: 0})) == 0
+
+
+def test_numbers_that_are_none_are_refused(draped):
+    world, report, x, first = draped
+    stencils = report.stencils(first)
+    n = len(stencils)
+    ones = np.ones((n, 4, 3))
+    masked = np.ma.array(ones, mask=True)
+    impulses = np.ones((n, 3))
+    cases = [
+        (lambda: stencils.add_gradients(masked, len(x)), ValueError, "masked"),
+        (lambda: stencils.add_gradients(ones * 1j, len(x)), TypeError, "complex"),
+        (lambda: stencils.add_gradients(ones.astype(str), len(x)), TypeError, "U"),
+        (lambda: stencils.add_gradients(ones.reshape(n, 3, 4), len(x)), ValueError, "shape"),
+        (lambda: stencils.add_gradients(ones, -8), ValueError, "moving is -8"),
+        (lambda: stencils.colors(-1), ValueError, "moving is -1"),
+        (lambda: stencils.effective_masses(np.ma.array(np.ones(len(x)), mask=True)), ValueError, "masked"),
+        (lambda: world.sum_contacts(report, report.points.ids, impulses.ravel()), ValueError, "shape"),
+        (lambda: world.sum_contacts(report, report.points.ids, np.ma.array(impulses, mask=True)), ValueError, "masked"),
+        (lambda: world.sum_contacts(report, [-1], [[0, 0, 0]]), ValueError, "-1"),
+        (lambda: tact.nearest_rotation(np.eye(3) * 1j), TypeError, "complex"),
+        (lambda: tact.rotation_of_quaternion(["0", "0", "0", "1"]), TypeError, "U1"),
+        (lambda: world.add_body([np.ma.array(p, mask=True) for p in x[:3]], [[0, 1, 2]]), ValueError, "masked"),
+        (lambda: world.labels(next(iter(first)), [0, 1, 2]), ValueError, "vertices has shape"),
+    ]
+    for call, exception, says in cases:
+        with pytest.raises(exception, match=says):
+            call()
 
 
 def test_rotations_of_float_engines_are_taken():
@@ -134,7 +189,7 @@ def test_sums_are_those_of_loops(draped):
     np.testing.assert_allclose(sums.forces[bodies].sum(axis=0), 0, atol=1e-12)
     np.testing.assert_array_equal(sums.bodies[bodies, 1], -1)
     assert len(world.sum_contacts(report)) == len(sums)
-    with pytest.raises(ValueError, match="shapes"):
+    with pytest.raises(ValueError, match="impulses has shape"):
         world.sum_contacts(report, points.ids, impulses[1:])
 
 

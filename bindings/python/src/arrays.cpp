@@ -50,8 +50,14 @@ py::object as_array(py::handle given) {
 // What numpy makes of it, without masks, which it would drop.
 py::array array_from(py::handle given, const std::string& what) {
   if (is_plain_array(given)) return py::reinterpret_borrow<py::array>(given);
-  if (py::isinstance<py::array>(given) && py::cast<bool>(py::module_::import("numpy.ma").attr("is_masked")(given)))
-    throw py::value_error(what + " has masked values: fill them in, or leave them out");
+  const auto is_masked = [](py::handle one) {
+    return py::isinstance<py::array>(one) && py::cast<bool>(py::module_::import("numpy.ma").attr("is_masked")(one));
+  };
+  bool masked = is_masked(given);
+  if (py::isinstance<py::list>(given) || py::isinstance<py::tuple>(given)) {
+    for (const py::handle row : given) masked = masked || is_masked(row);
+  }
+  if (masked) throw py::value_error(what + " has masked values: fill them in, or leave them out");
   check_is_in_host_memory(given, what);
   try {
     const py::array array(as_array(given));
@@ -142,9 +148,12 @@ py::array_t<double> doubles_of(const py::array& array, const std::string& what) 
   });
 }
 
+// Rows that share numbers, as of a sliding window, are none that the engine reads where they are.
 template <class Number>
 bool has_whole_rows_of(const py::array& array) {
-  return py::isinstance<py::array_t<Number>>(array) && array.strides(1) == static_cast<py::ssize_t>(sizeof(Number));
+  const auto size = static_cast<py::ssize_t>(sizeof(Number));
+  return py::isinstance<py::array_t<Number>>(array) && array.strides(1) == size &&
+         (array.shape(0) < 2 || std::abs(array.strides(0)) >= array.shape(1) * size);
 }
 
 py::array checked_positions(py::handle given, const std::string& what) {
@@ -205,8 +214,8 @@ FeatureSettingsArgument::FeatureSettingsArgument(py::handle rest_offsets, py::ha
                                                  py::handle facet_labels, py::handle vertex_layers,
                                                  py::handle vertex_masks, py::handle facet_layers,
                                                  py::handle facet_masks, py::handle margins)
-    : rest_offsets_(doubles_of(row_from(rest_offsets, "rest_offsets"), "rest_offsets")),
-      margins_(doubles_of(row_from(margins, "margins"), "margins")),
+    : rest_offsets_(row_argument(rest_offsets, "rest_offsets")),
+      margins_(row_argument(margins, "margins")),
       vertex_labels_(bits_of(vertex_labels, "vertex_labels")),
       facet_labels_(bits_of(facet_labels, "facet_labels")),
       vertex_layers_(bits_of(vertex_layers, "vertex_layers")),
@@ -228,7 +237,8 @@ Positions PositionsArgument::columns() const {
   return columns_of<double>(array_, array_.itemsize() == sizeof(float) ? NumberKind::float32 : NumberKind::float64);
 }
 
-FacetsArgument::FacetsArgument(py::handle given) : array_(checked_rows(given, "facets", "facet", "F", 3)) {}
+FacetsArgument::FacetsArgument(py::handle given, const std::string& what)
+    : array_(checked_rows(given, what, "facet", "F", 3)) {}
 
 Facets FacetsArgument::columns() const { return columns_of<int>(array_, NumberKind::int32); }
 
@@ -261,11 +271,23 @@ py::array_t<int> indices_argument(py::handle given, const std::string& what) {
   return integers_of<int>(given, what, "which no body can have");
 }
 
+py::array_t<std::uint64_t> ids_argument(py::handle given, const std::string& what) {
+  return integers_of<std::uint64_t>(given, what, "which is no id");
+}
+
+py::array_t<double> row_argument(py::handle given, const std::string& what) {
+  return doubles_of(row_from(given, what), what);
+}
+
 py::array_t<double> numbers_argument(py::handle given, const std::string& what, const std::vector<py::ssize_t>& shape) {
   const py::array array = array_from(given, what);
   if (!std::equal(array.shape(), array.shape() + array.ndim(), shape.begin(), shape.end()))
     throw py::value_error(what + " has shape " + shape_text(array) + ", not " + text_of(py::tuple(py::cast(shape))));
   return doubles_of(array, what);
+}
+
+py::array_t<double> numbers_argument(py::handle given, const std::string& what) {
+  return doubles_of(array_from(given, what), what);
 }
 
 Eigen::Vector3d vector_argument(py::handle given, const std::string& what) {

@@ -37,7 +37,8 @@ class PositionsArgument {
 /// @throws TypeError, ValueError as above; ValueError also names a facet with a number that does not fit in 32 bits.
 class FacetsArgument {
  public:
-  explicit FacetsArgument(py::handle given);
+  /// `what`: what the caller calls it.
+  explicit FacetsArgument(py::handle given, const std::string& what = "facets");
   /// Valid as long as this.
   Facets columns() const;
 
@@ -90,8 +91,14 @@ class FeatureSettingsArgument {
 
 /// Integers given as an array of shape (N,), each of 32 bits. @throws TypeError, ValueError as above.
 py::array_t<int> indices_argument(py::handle given, const std::string& what);
+/// The same, each of 64 bits and at least 0.
+py::array_t<std::uint64_t> ids_argument(py::handle given, const std::string& what);
 /// Real numbers of a known shape, row by row. @throws TypeError, ValueError as above.
 py::array_t<double> numbers_argument(py::handle given, const std::string& what, const std::vector<py::ssize_t>& shape);
+/// The same of any shape.
+py::array_t<double> numbers_argument(py::handle given, const std::string& what);
+/// Real numbers of shape (N,). @throws TypeError, ValueError as above.
+py::array_t<double> row_argument(py::handle given, const std::string& what);
 /// Three coordinates, as a row or a column. @throws TypeError, ValueError as above.
 Eigen::Vector3d vector_argument(py::handle given, const std::string& what);
 /// The name of the type of something, for messages.

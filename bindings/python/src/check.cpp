@@ -7,6 +7,7 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -20,8 +21,10 @@
 #include "scenes/commands/report_json.h"
 #include "scenes/commands/usage_error.h"
 #include "scenes/files/mesh_builder.h"
+#include "scenes/files/named_files.h"
 #include "scenes/files/weld_frames.h"
 #include "shared_world.h"
+#include "text.h"
 
 namespace tact::python {
 namespace {
@@ -41,6 +44,16 @@ py::list frames_of(const BodyFrames& body) {
   return frames;
 }
 
+// The number of each vertex in the files.
+py::array_t<int> vertices_of(const BodyFrames& body) {
+  std::vector<int> numbers = body.vertices;
+  if (numbers.empty()) {
+    numbers.resize(static_cast<std::size_t>(body.positions.front().cols()));
+    std::iota(numbers.begin(), numbers.end(), 0);
+  }
+  return py::array_t<int>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
+}
+
 py::array_t<int> facets_of(const BodyFrames& body) {
   py::array_t<int> array({static_cast<py::ssize_t>(body.facets.cols()), py::ssize_t{3}});
   std::copy_n(body.facets.data(), body.facets.size(), array.mutable_data());
@@ -49,10 +62,21 @@ py::array_t<int> facets_of(const BodyFrames& body) {
 }
 
 // A body of arrays: one frame stands still.
-BodyFrames body_frames(const std::string& name, const py::list& positions, py::handle facets, std::vector<double> times,
-                       std::vector<std::filesystem::path> files) {
+BodyFrames body_frames(const std::filesystem::path& given_name, const py::list& positions, py::handle facets,
+                       py::handle vertices, std::vector<double> times, std::vector<std::filesystem::path> files) {
+  const std::string name = given_name.string();
+  const auto check_count = [&](std::size_t count, const char* what) {
+    if (count != 0 && count != positions.size())
+      throw py::value_error(name + ": " + std::to_string(count) + " " + what + " for " +
+                            std::to_string(positions.size()) + " frames");
+  };
+  if (positions.empty()) throw py::value_error(name + ": it has no frames");
+  check_count(times.size(), "times");
+  check_count(files.size(), "files");
   BodyFrames body{.name = name, .files = std::move(files)};
   body.times = std::move(times);
+  const py::array_t<int> numbers = indices_argument(vertices, "vertices");
+  body.vertices.assign(numbers.data(), numbers.data() + numbers.size());
   body.short_name = std::filesystem::path(name).stem().string();
   body.moves = positions.size() > 1;
   for (const py::handle frame : positions) {
@@ -62,6 +86,9 @@ BodyFrames body_frames(const std::string& name, const py::list& positions, py::h
     for (Eigen::Index v = 0; v < columns.cols(); ++v)
       copy.col(v) = Eigen::Map<const Eigen::Vector3d>(columns.column(v).data());
   }
+  if (!body.vertices.empty() && std::ssize(body.vertices) != body.positions.front().cols())
+    throw py::value_error(name + ": vertices has " + std::to_string(body.vertices.size()) + " numbers for " +
+                          std::to_string(body.positions.front().cols()) + " vertices");
   const FacetsArgument given(facets);
   const Facets columns = given.columns();
   body.facets.resize(3, columns.cols());
@@ -115,13 +142,19 @@ py::array_t<int> split_polygons(const std::string& name, py::handle positions, p
 class Steps {
  public:
   Steps(const Settings& settings, const std::vector<BodyFrames>& bodies, const scenes::BodyOptions& options, bool weld,
-        bool impacts, bool json, bool surfaces, const std::string& record)
+        bool impacts, bool json, const std::filesystem::path& json_file, bool surfaces,
+        const std::filesystem::path& record)
       : world_(std::make_shared<SharedWorld>(std::make_shared<World>(settings))), impacts_(impacts) {
     std::vector<BodyFrames> frames = bodies;
     if (weld) std::for_each(frames.begin(), frames.end(), scenes::weld_frames);
     const auto excluded = scenes::apply_body_options(
         options, frames, {.sheet = "sheets", .margin = "margins", .self = "selves", .exclude = "exclude"});
-    if (!record.empty()) world_->record(record);
+    scenes::NamedFiles files;
+    for (const BodyFrames& body : bodies)
+      std::ranges::for_each(body.files, [&](const auto& file) { files.add_input(file); });
+    files.add_output("json", json_file);
+    files.add_output("record", record);
+    if (!record.empty()) world_->record(record.string());
     world_->compute([&](World& world) { steps_.emplace(std::move(frames), excluded, world); });
     using Report = scenes::JsonReport;
     if (json) {
@@ -151,7 +184,11 @@ class Steps {
   const std::shared_ptr<SharedWorld>& world() const { return world_; }
   std::vector<BodyId> ids() const { return steps_->ids(); }
   const std::vector<BodyFrames>& bodies() const { return steps_->bodies(); }
-  std::vector<std::string> files_of(int frame) const { return steps_->files_of(frame); }
+  py::list files_of(int frame) const {
+    py::list names;
+    for (const std::string& file : steps_->files_of(frame)) names.append(name_of(file));
+    return names;
+  }
 
  private:
   std::shared_ptr<SharedWorld> world_;
@@ -161,12 +198,7 @@ class Steps {
   std::optional<scenes::JsonReport> report_;
 };
 
-// A name that is not UTF-8 has U+FFFD in the place of each wrong byte.
-void raise_value_error(const std::string& text) {
-  const py::object message = py::reinterpret_steal<py::object>(
-      PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace"));
-  if (message) PyErr_SetObject(PyExc_ValueError, message.ptr());
-}
+void raise_value_error(const char* text) { PyErr_SetObject(PyExc_ValueError, sentence(text).ptr()); }
 
 void translate(std::exception_ptr thrown) {
   try {
@@ -183,21 +215,27 @@ void translate(std::exception_ptr thrown) {
 void define_check(py::module_& module) {
   py::register_exception_translator(translate);
   py::class_<BodyFrames>(module, "_BodyFrames", "A body as files give it.")
-      .def(py::init(&body_frames), py::arg("name"), py::arg("positions"), py::arg("facets"), py::arg("times"),
-           py::arg("files"))
-      .def_readonly("name", &BodyFrames::name)
+      .def(py::init(&body_frames), py::arg("name"), py::arg("positions"), py::arg("facets"), py::arg("vertices"),
+           py::arg("times"), py::arg("files"))
+      .def_property_readonly("name", [](const BodyFrames& body) { return name_of(body.name); })
       .def_readonly("times", &BodyFrames::times)
       .def_property_readonly("files",
                              [](const BodyFrames& body) {
-                               std::vector<std::string> files;
-                               for (const auto& file : body.files) files.push_back(file.string());
+                               py::list files;
+                               for (const auto& file : body.files) files.append(name_of(file.string()));
                                return files;
                              })
-      .def_readonly("warnings", &BodyFrames::warnings)
+      .def_property_readonly("warnings",
+                             [](const BodyFrames& body) {
+                               py::list warnings;
+                               for (const std::string& warning : body.warnings) warnings.append(sentence(warning));
+                               return warnings;
+                             })
       .def_property_readonly("frame_count", [](const BodyFrames& body) { return body.positions.size(); })
       .def_property_readonly("moves", [](const BodyFrames& body) { return body.moves; })
       .def_property_readonly("positions", frames_of)
-      .def_property_readonly("facets", facets_of);
+      .def_property_readonly("facets", facets_of)
+      .def_property_readonly("vertices", vertices_of);
   module.def("_read_bodies", &read_bodies, py::arg("paths"), py::arg("most_frames"), py::arg("progress"));
   module.def("_split_polygons", &split_polygons, py::arg("name"), py::arg("positions"), py::arg("sizes"),
              py::arg("corners"));
@@ -205,18 +243,19 @@ void define_check(py::module_& module) {
       .def(py::init([](const Settings& settings, const std::vector<BodyFrames>& bodies, std::vector<std::string> sheets,
                        std::optional<double> margin, std::vector<std::pair<std::string, double>> margins,
                        std::vector<std::string> selves, std::vector<std::pair<std::string, std::string>> excluded,
-                       bool weld, bool impacts, bool json, bool surfaces, const std::string& record) {
+                       bool weld, bool impacts, bool json, const std::filesystem::path& json_file, bool surfaces,
+                       const std::filesystem::path& record) {
              return std::make_unique<Steps>(settings, bodies,
                                             scenes::BodyOptions{.sheets = std::move(sheets),
                                                                 .margin = margin,
                                                                 .margins = std::move(margins),
                                                                 .selves = std::move(selves),
                                                                 .excluded = std::move(excluded)},
-                                            weld, impacts, json, surfaces, record);
+                                            weld, impacts, json, json_file, surfaces, record);
            }),
            py::arg("settings"), py::arg("bodies"), py::kw_only(), py::arg("sheets"), py::arg("margin"),
            py::arg("margins"), py::arg("selves"), py::arg("exclude"), py::arg("weld"), py::arg("impacts"),
-           py::arg("json"), py::arg("surfaces"), py::arg("record"))
+           py::arg("json"), py::arg("json_file"), py::arg("surfaces"), py::arg("record"))
       .def("step", &Steps::step, py::arg("frame"), py::arg("time"))
       .def("finish_json", &Steps::finish_json)
       .def("files_of", &Steps::files_of, py::arg("frame"))

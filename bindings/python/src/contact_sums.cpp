@@ -50,12 +50,12 @@ SumArrays arrays_of(ContactSums found) {
           std::move(kept)};
 }
 
-using Ids = py::array_t<std::uint64_t, py::array::c_style>;
-using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
-
-SumArrays sum_contacts_of(SharedWorld& world, const OfReport<Report>& report, const Ids& ids, const Numbers& impulses) {
-  if (ids.ndim() != 1 || impulses.size() != 3 * ids.size())
-    throw py::value_error("ids and impulses have not the shapes (N,) and (N, 3)");
+SumArrays sum_contacts_of(SharedWorld& world, const OfReport<Report>& report, py::handle given_ids,
+                          py::handle given_impulses) {
+  const py::array_t<std::uint64_t> ids = ids_argument(given_ids, "ids");
+  const py::array_t<double> impulses = ids.size() == 0 && py::len(given_impulses) == 0
+                                           ? py::array_t<double>(0)
+                                           : numbers_argument(given_impulses, "impulses", {ids.size(), 3});
   std::vector<PointImpulse> given;
   for (py::ssize_t i = 0; i < ids.size(); ++i)
     given.push_back({ids.data()[i], Eigen::Map<const Eigen::Vector3d>(impulses.data() + 3 * i)});
@@ -118,8 +118,8 @@ void define_contact_sums(py::module_& module, WorldClass& world) {
       .def_readonly("vertices", &SumArrays::vertices,
                     "(M, 2) int64: BodyId.index and vertex, of each sum each once, in order")
       .def("__len__", [](const SumArrays& sums) { return sums.points.size(); });
-  world.def("sum_contacts", sum_contacts_of, py::arg("report"), py::arg("ids") = Ids(std::vector<py::ssize_t>{0}),
-            py::arg("impulses") = Numbers(std::vector<py::ssize_t>{0, 3}),
+  world.def("sum_contacts", sum_contacts_of, py::arg("report"), py::arg("ids") = py::tuple(),
+            py::arg("impulses") = py::tuple(),
             "adds up the points of a world's last report, at the current positions. `ids` (N,) and `impulses` (N, 3) "
             "are of points");
   py::class_<PointLabels>(

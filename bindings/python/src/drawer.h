@@ -10,6 +10,7 @@
 
 #include "arrays.h"
 #include "interpreter.h"
+#include "text.h"
 
 namespace tact::python {
 
@@ -25,7 +26,7 @@ class PythonDrawer : public DebugDrawer {
     call_python(object_.attr("triangle"), vector_of(p), vector_of(q), vector_of(r), color_of(color));
   }
   void text(const Eigen::Vector3d& at, std::string_view words, const DebugColor& color) override {
-    call_python(object_.attr("text"), vector_of(at), std::string(words), color_of(color));
+    call_python(object_.attr("text"), vector_of(at), sentence(words), color_of(color));
   }
 
  private:

@@ -5,6 +5,7 @@
 
 #include "bindings.h"
 #include "shared_world.h"
+#include "text.h"
 
 namespace tact::python {
 
@@ -15,7 +16,7 @@ PyObject* g_error = nullptr;
 PyObject* g_stale_report = nullptr;
 
 void raise(const Error& error) {
-  const py::object raised = py::reinterpret_borrow<py::object>(g_error)(error.what());
+  const py::object raised = py::reinterpret_borrow<py::object>(g_error)(sentence(error.what()));
   raised.attr("code") = py::cast(error.code());
   PyErr_SetObject(g_error, raised.ptr());
 }

@@ -34,7 +34,7 @@ FeatureArraysOfBody feature_settings(SharedWorld& world, BodyId body) {
 }
 
 py::array_t<std::uint32_t> labels(SharedWorld& world, BodyId body, py::handle vertices) {
-  const FacetsArgument given(vertices);
+  const FacetsArgument given(vertices, "vertices");
   const Facets rows = given.columns();
   std::vector<FeatureLabels> found;
   for (std::ptrdiff_t i = 0; i < rows.cols(); ++i) found.push_back(world.read().labels(body, rows.column(i)));

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "interpreter.h"
+#include "text.h"
 
 namespace tact::python {
 
@@ -82,8 +83,9 @@ void define_messages(py::module_& module) {
       .def_readonly("kind", &KeptMessage::kind)
       .def_readonly("a", &KeptMessage::a, "the first body of the pair, or no body")
       .def_readonly("b", &KeptMessage::b)
-      .def_readonly("text", &KeptMessage::text, "one sentence")
-      .def("__repr__", [](const KeptMessage& message) { return "<tact.Message: " + message.text + ">"; });
+      .def_property_readonly(
+          "text", [](const KeptMessage& message) { return sentence(message.text); }, "one sentence")
+      .def("__repr__", [](const KeptMessage& message) { return sentence("<tact.Message: " + message.text + ">"); });
 }
 
 }  // namespace tact::python

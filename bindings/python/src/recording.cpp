@@ -2,6 +2,7 @@
 #include <pybind11/stl/filesystem.h>
 #include <tact/recording.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -15,16 +16,25 @@
 
 namespace tact::python {
 
+namespace {
+
+// OSError as open() has it: of what the system said last.
+[[noreturn]] void refuse_file(const std::string& path) {
+  if (errno == 0) errno = EIO;
+  PyErr_SetFromErrnoWithFilename(PyExc_OSError, path.c_str());
+  throw py::error_already_set();
+}
+
+}  // namespace
+
 void SharedWorld::record(const std::string& path) {
   World& world = use();
   WorldObserver trial;
   world.set_observer(&trial);  // a refused call empties no file
   world.set_observer(recording_ == nullptr ? nullptr : &recording_->recorder);
+  errno = 0;
   auto recording = std::make_unique<FileRecording>(path);
-  if (!recording->file) {
-    PyErr_SetString(PyExc_OSError, ("the recording cannot be written: " + path).c_str());
-    throw py::error_already_set();
-  }
+  if (!recording->file) refuse_file(path);
   world.set_observer(&recording->recorder);
   recording_ = std::move(recording);
 }
@@ -48,14 +58,14 @@ std::string bytes_of_file(const std::filesystem::path& path) {
     PyErr_SetString(PyExc_IsADirectoryError, ("the recording is a folder: " + path.string()).c_str());
     throw py::error_already_set();
   }
+  errno = 0;
   try {
     std::ifstream file(path, std::ios::binary);
     std::string bytes{std::istreambuf_iterator<char>(file), {}};
     if (file) return bytes;
   } catch (const std::ios_base::failure&) {  // the iterator lets errors of reading through
   }
-  PyErr_SetString(PyExc_OSError, ("the recording cannot be read: " + path.string()).c_str());
-  throw py::error_already_set();
+  refuse_file(path.string());
 }
 
 // A player, the bytes that it plays, and its world as Python has it.

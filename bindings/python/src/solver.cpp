@@ -27,6 +27,7 @@ struct Stencils {
   int last = -1;  // the greatest vertex
 
   std::span<const Stencil> span() const { return all; }
+  py::ssize_t count() const { return static_cast<py::ssize_t>(all.size()); }
 };
 
 Eigen::Matrix3Xd matrix_of(py::handle given, const std::string& what) {
@@ -45,35 +46,36 @@ int greatest_vertex(std::span<const Stencil> stencils) {
 
 using FirstRows = std::unordered_map<BodyId, int>;
 
-// By the index of the body.
-std::vector<int> rows_by_index(const FirstRows& first_rows) {
+// The first rows of both bodies of each of `pairs` for which joins_vertices(pair), by their index. Others that are
+// given, such as those of bodies that were removed, are of no index.
+template <class Pair, class JoinsVertices>
+std::vector<int> rows_by_index(std::span<const Pair> pairs, const FirstRows& first_rows,
+                               const JoinsVertices& joins_vertices) {
+  for (const auto& [body, row] : first_rows)
+    if (row < 0)
+      throw py::value_error("the first row of the body of index " + std::to_string(body.index) + " is negative");
   std::vector<int> by_index;
-  for (const auto& [body, row] : first_rows) {
-    if (row < 0) throw py::value_error("a first row is negative");
-    if (body.index >= by_index.size()) by_index.resize(body.index + std::size_t{1}, -1);
-    by_index[body.index] = row;
+  for (const Pair& pair : pairs) {
+    if (!joins_vertices(pair)) continue;
+    for (const BodyId body : {pair.a, pair.b}) {
+      const auto given = first_rows.find(body);
+      if (given == first_rows.end())
+        throw py::key_error("the body of index " + std::to_string(body.index) + " has no first row");
+      if (body.index >= by_index.size()) by_index.resize(body.index + std::size_t{1}, -1);
+      by_index[body.index] = given->second;
+    }
   }
   return by_index;
 }
 
-[[noreturn]] void refuse_body(std::size_t index) {
-  throw py::key_error("the body of index " + std::to_string(index) + " has no first row");
-}
-
-// Each body of a contact of which is_needed(contact) has to have one.
-template <class IsNeeded>
-std::vector<int> rows_by_index(const Report& report, const FirstRows& first_rows, const IsNeeded& is_needed) {
-  for (const Contact& contact : report.contacts()) {
-    for (const BodyId body : {contact.a, contact.b})
-      if (is_needed(contact) && !first_rows.contains(body)) refuse_body(body.index);
-  }
-  return rows_by_index(first_rows);
+bool is_with_plane(const ContactPoint& point) {
+  return point.kind == FeaturePair::vertex_plane || point.kind == FeaturePair::plane_vertex;
 }
 
 Stencils stencils_of(const OfReport<Report>& report, const FirstRows& first_rows) {
   const auto held = report.held();
-  const auto has_points = [](const Contact& contact) { return !contact.points().empty(); };
-  std::vector<Stencil> all = solver::stencils(*held, rows_by_index(*held, first_rows, has_points));
+  const auto has_points = [](const Contact& contact) { return !std::ranges::all_of(contact.points(), is_with_plane); };
+  std::vector<Stencil> all = solver::stencils(*held, rows_by_index(held->contacts(), first_rows, has_points));
   const int last = greatest_vertex(all);
   return {std::move(all), last};
 }
@@ -88,7 +90,7 @@ ReachStencils stencils_within_reach_of(const OfReport<Report>& report, const Fir
   const auto has_pairs = [](const Contact& contact) { return !contact.within_reach().empty(); };
   ReachStencils result;
   for (const solver::ReachStencil& pair :
-       solver::stencils_within_reach(*held, rows_by_index(*held, first_rows, has_pairs))) {
+       solver::stencils_within_reach(*held, rows_by_index(held->contacts(), first_rows, has_pairs))) {
     result.whole.all.push_back(pair.whole);
     result.closest.all.push_back(pair.closest);
   }
@@ -99,11 +101,8 @@ ReachStencils stencils_within_reach_of(const OfReport<Report>& report, const Fir
 
 // Of impacts that stop.
 Stencils impact_stencils_of(const MotionArrays& motion, const FirstRows& first_rows, py::handle begin, py::handle end) {
-  const std::vector<int> rows = rows_by_index(first_rows);
-  for (const Impact& impact : motion.impacts) {
-    for (const BodyId body : {impact.a, impact.b})
-      if (solver::is_constraint(impact) && !first_rows.contains(body)) refuse_body(body.index);
-  }
+  const std::vector<int> rows =
+      rows_by_index(std::span<const Impact>(motion.impacts), first_rows, solver::is_constraint);
   const Eigen::Matrix3Xd from = matrix_of(begin, "begin"), to = matrix_of(end, "end");
   std::vector<Stencil> all = solver::impact_stencils(motion.impacts, rows, from, to);
   const int last = greatest_vertex(all);
@@ -184,13 +183,12 @@ Terms penalties(const Stencils& stencils, py::handle positions, double reach, bo
   });
 }
 
-Terms friction(const Stencils& stencils, py::handle moved, const std::vector<double>& limits, double smoothing,
-               bool hessians) {
+Terms friction(const Stencils& stencils, py::handle moved, py::handle given_limits, double smoothing, bool hessians) {
   const Eigen::Matrix3Xd way = checked(stencils, moved, "moved");
-  if (limits.size() != stencils.all.size()) throw py::value_error("limits has not a number for each stencil");
+  const py::array_t<double> limits = numbers_argument(given_limits, "limits", {stencils.count()});
   return terms_of(stencils, exact_if(hessians), [&](const Stencil& stencil, std::size_t i) {
-    return solver::friction_term(stencil, solver::tangents(stencil.normal), solver::gather(stencil, way), limits[i],
-                                 smoothing);
+    return solver::friction_term(stencil, solver::tangents(stencil.normal), solver::gather(stencil, way),
+                                 limits.data()[i], smoothing);
   });
 }
 
@@ -200,7 +198,12 @@ void draw(const Stencils& stencils, py::handle positions, py::object drawer, py:
   solver::debug_draw(stencils.all, x, to, color.is_none() ? DebugDrawOptions{}.point : py::cast<DebugColor>(color));
 }
 
+void check_moving(int moving) {
+  if (moving < 0) throw py::value_error("moving is " + std::to_string(moving) + ", not at least 0");
+}
+
 py::array_t<int> colors(const Stencils& stencils, int moving) {
+  check_moving(moving);
   const solver::Coloring coloring = solver::color(stencils.all, moving);
   py::array_t<int> result(static_cast<py::ssize_t>(stencils.all.size()));
   for (int c = 0; c < coloring.count(); ++c)
@@ -208,21 +211,17 @@ py::array_t<int> colors(const Stencils& stencils, int moving) {
   return result;
 }
 
-py::array_t<double> effective_masses(const Stencils& stencils, const std::vector<double>& inverse_masses) {
+py::array_t<double> effective_masses(const Stencils& stencils, py::handle given) {
+  const py::array_t<double> inverse_masses = row_argument(given, "inverse_masses");
+  const std::span<const double> all(inverse_masses.data(), static_cast<std::size_t>(inverse_masses.size()));
   return column_of<double>(stencils.span(),
-                           [&](const Stencil& stencil) { return solver::effective_mass(stencil, inverse_masses); });
+                           [&](const Stencil& stencil) { return solver::effective_mass(stencil, all); });
 }
 
-using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
-
-void check_numbers(const Stencils& stencils, const Numbers& numbers, py::ssize_t each) {
-  if (numbers.size() != each * static_cast<py::ssize_t>(stencils.all.size()))
-    throw py::value_error("there are not " + std::to_string(each) + " numbers for each stencil");
-}
-
-py::array_t<double> add_gradients(const Stencils& stencils, const Numbers& gradients, int moving) {
-  check_numbers(stencils, gradients, 12);
-  py::array_t<double> sum({static_cast<py::ssize_t>(std::max(moving, 0)), py::ssize_t{3}});
+py::array_t<double> add_gradients(const Stencils& stencils, py::handle given, int moving) {
+  check_moving(moving);
+  const auto gradients = numbers_argument(given, "gradients", {stencils.count(), 4, 3});
+  py::array_t<double> sum({static_cast<py::ssize_t>(moving), py::ssize_t{3}});
   Eigen::Map<Eigen::VectorXd> all(sum.mutable_data(), sum.size());
   all.setZero();
   for (std::size_t i = 0; i < stencils.all.size(); ++i)
@@ -231,9 +230,10 @@ py::array_t<double> add_gradients(const Stencils& stencils, const Numbers& gradi
 }
 
 // Rows, columns and values of the entries that move.
-std::tuple<py::array_t<int>, py::array_t<int>, py::array_t<double>> triplets(const Stencils& stencils,
-                                                                             const Numbers& hessians, int moving) {
-  check_numbers(stencils, hessians, 144);
+std::tuple<py::array_t<int>, py::array_t<int>, py::array_t<double>> triplets(const Stencils& stencils, py::handle given,
+                                                                             int moving) {
+  check_moving(moving);
+  const auto hessians = numbers_argument(given, "hessians", {stencils.count(), 12, 12});
   std::vector<Eigen::Triplet<double>> found;
   for (std::size_t i = 0; i < stencils.all.size(); ++i)
     solver::append_triplets(stencils.all[i], solver::Matrix12d::Map(hessians.data() + 144 * i), moving, found);

@@ -41,9 +41,17 @@ std::string page_of_world(SharedWorld& shared, const std::string& title) {
   return text.str();
 }
 
+void check_steps(int every, int from, std::optional<int> to) {
+  if (every < 1) throw py::value_error("every is " + std::to_string(every) + ", not at least 1");
+  if (from < 0) throw py::value_error("start is " + std::to_string(from) + ", not at least 0");
+  if (to && *to < from)
+    throw py::value_error("stop is " + std::to_string(*to) + ", before start, " + std::to_string(from));
+}
+
 // The page that `tact view FILE` writes. Contact points and curves that were not recorded are found if they are wanted.
 std::string page_of_recording(const std::filesystem::path& path, int every, int from, std::optional<int> to,
                               bool few_points, bool points, bool curves) {
+  check_steps(every, from, to);
   const std::string name = path.string();
   const scenes::MappedFile file(path);
   std::ostringstream text;

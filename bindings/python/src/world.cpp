@@ -15,6 +15,7 @@
 #include "messages.h"
 #include "motion.h"
 #include "shared_world.h"
+#include "text.h"
 
 namespace tact::python {
 
@@ -44,7 +45,13 @@ void set_many_positions(SharedWorld& world, const py::dict& positions) {
   std::vector<PositionsUpdate> updates;
   for (const auto& [body, array] : items_of(positions)) {
     const BodyId id = body_of(body, "positions: the key");
-    arguments.emplace_back(array);
+    try {
+      arguments.emplace_back(array);
+    } catch (const py::value_error& error) {
+      throw py::value_error(std::string(py::repr(body)) + ": " + error.what());
+    } catch (const py::type_error& error) {
+      throw py::type_error(std::string(py::repr(body)) + ": " + error.what());
+    }
     updates.push_back({id, arguments.back().columns()});
   }
   world.compute([&](World& w) { w.set_positions(updates); });
@@ -104,7 +111,7 @@ MotionArrays detect_motion(SharedWorld& world, const MotionOptions& options) {
 
 py::bytes save(SharedWorld& world) {
   std::vector<std::byte> bytes;
-  world.compute([&](World& w) { bytes = w.save(); });
+  world.ask([&](const World& w) { bytes = w.save(); });
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
@@ -291,7 +298,9 @@ void define_filters(WorldClass& world) {
 
 // What a body is, as it was given.
 void define_properties(WorldClass& world) {
-  world.def("name", of_body<&World::name>, py::arg("body"))
+  world
+      .def(
+          "name", [](SharedWorld& w, BodyId body) { return name_of(w.read().name(body)); }, py::arg("body"))
       .def("surface", of_body<&World::surface>, py::arg("body"))
       .def("motion", of_body<&World::motion>, py::arg("body"))
       .def("layer", of_body<&World::layer>, py::arg("body"))

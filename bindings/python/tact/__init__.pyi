@@ -708,7 +708,7 @@ class MotionReport:
         """(N,): false if they touch and part, or slide along each other: the surfaces around them do not cross there"""
     @property
     def bounds(self) -> dict[BodyId, Floats]:
-        """for each vertex of a body how far along its way it may go, 0 to 1, if bounds were requested. (V,) by body that moved. All may go so far at once, and meet nothing"""
+        """for each vertex of a body how far along its way it may go, 0 to 1, if bounds were requested. (V,) by body that moved. All may go so far at once, and come through nothing"""
     @property
     def stats(self) -> dict[str, float]:
         """counts and times. By name, times in milliseconds"""
@@ -998,7 +998,7 @@ class SurfaceCheck:
     def unused_vertices(self) -> Ints:
         """vertices of no facet, edge or point"""
     def is_solid(self) -> bool:
-        """whether it bounds a solid: every component is closed, and none is inside out"""
+        """whether it bounds a solid: there is a component, every one is closed, and none is inside out"""
     def is_clean(self) -> bool:
         """whether every list of faults is empty; borders are none, nor are unused vertices"""
 
@@ -1207,7 +1207,7 @@ class World:
     def bodies_containing(
         self, point: npt.ArrayLike, *, layer: int = 0xFFFFFFFF, mask: int = 0xFFFFFFFF
     ) -> list[BodyId]:
-        """the closed bodies that contain a point or have it on their surface, decided exactly; ignores `within`"""
+        """the closed bodies that contain a point or have it on their surface, decided exactly, at any `within`"""
     def overlap_boxes(
         self,
         lower: npt.ArrayLike,

@@ -6,7 +6,7 @@ import warnings
 import numpy as np
 
 from . import _tact
-from ._files import EVERY, Mesh, MeshSequence, _is_own, _make_names_differ, _read_own, _sequence_of, read_sequence
+from ._files import Mesh, MeshSequence, _is_own, _make_names_differ, _most, _read_own, _sequence_of, read_sequence
 from ._progress import progress_over
 
 
@@ -30,6 +30,7 @@ class CheckFrame:
 
     def gaps(self, body):
         """(V,): for each vertex of a body the least gap of its contact points, metres; infinity where there is none"""
+        body = self._number(body)
         least = np.full(self._sizes[body][0], np.inf)
         for side, vertices in enumerate((self.points.a_vertices, self.points.b_vertices)):
             here = self.points.bodies[:, side] == body
@@ -40,10 +41,15 @@ class CheckFrame:
 
     def crossing(self, body):
         """(F,): for each facet of a body whether it meets another"""
+        body = self._number(body)
         meets = np.zeros(self._sizes[body][1], bool)
         for side in range(2):
             meets[self.facet_pairs.facets[self.facet_pairs.bodies[:, side] == body, side]] = True
         return meets
+
+    def _number(self, body):
+        """counted from 0; as in lists, -1 is the last one"""
+        return range(len(self._sizes))[body]
 
     def __repr__(self):
         return f"<tact.CheckFrame {self.number}: {len(self.facet_pairs)} facet pairs, {len(self.points)} points>"
@@ -99,7 +105,7 @@ def check(
     result, a path writes it there, too. `record`: a file for `tact replay` and view(). Errors: ValueError, with the file
     and the place in it or the name that is no body's; OSError; Error.
     """
-    bodies = _bodies_of(meshes, EVERY if frames is None else frames, progress)
+    bodies = _bodies_of(meshes, _most(frames), progress)
     for body in bodies:
         for text in body.warnings:
             warnings.warn(text, stacklevel=2)
@@ -107,7 +113,7 @@ def check(
     steps = _tact._CheckSteps(
         _tact.Settings(
             threads=threads,
-            accuracy=getattr(_tact.Accuracy, accuracy) if isinstance(accuracy, str) else accuracy,
+            accuracy=_accuracy(accuracy),
             points=points,
             patches=points,
             curves=curves,
@@ -117,15 +123,17 @@ def check(
         bodies,
         sheets=_names(sheets),
         selves=_names(selves),
-        exclude=[tuple(pair) for pair in exclude],
+        exclude=[tuple(_names(pair)) for pair in exclude],
         margin=None if margins is None or hasattr(margins, "items") else float(margins),
-        margins=[(name, float(margin)) for name, margin in margins.items()] if hasattr(margins, "items") else [],
+        margins=[(os.fsencode(name), float(margin)) for name, margin in margins.items()] if hasattr(margins, "items") else [],
         weld=weld,
         impacts=impacts,
         json=bool(json),
+        json_file="" if isinstance(json, bool) else os.fspath(json),
         surfaces=surfaces,
         record="" if record is None else os.fspath(record),
     )
+    json_file = _WholeFile(json) if json and not isinstance(json, bool) else None
     times = next((body.times for body in steps.bodies if len(body.times) > 1), None)
     sizes = [(steps.world.vertex_count(body), steps.world.facet_count(body)) for body in steps.ids]
     found = []
@@ -136,14 +144,41 @@ def check(
     if record is not None:
         steps.world.stop_recording()
     text = steps.finish_json() if json else None
-    if json and not isinstance(json, bool):
-        with open(json, "w", encoding="utf-8") as file:
-            file.write(text)
+    if json_file is not None:
+        json_file.finish(text)
     return CheckResult([_sequence_of(body) for body in steps.bodies], found, steps.world, steps.ids, text)
 
 
+class _WholeFile:
+    """A file that is there when it is whole. That it can be written is seen at once."""
+
+    def __init__(self, path):
+        self.path = os.path.realpath(path)
+        is_device = os.path.exists(self.path) and not os.path.isfile(self.path)
+        self.part = self.path if is_device else f"{self.path}.{os.getpid()}.part"
+        if not is_device:
+            with open(self.part, "w"):
+                pass
+            os.remove(self.part)
+
+    def finish(self, text):
+        with open(self.part, "w", encoding="utf-8") as file:
+            file.write(text)
+        if self.part != self.path:
+            os.replace(self.part, self.path)
+
+
+def _accuracy(given):
+    if not isinstance(given, str):
+        return given
+    known = _tact.Accuracy.__members__
+    if given not in known:
+        raise ValueError(f"accuracy is {given!r}, not one of: {', '.join(known)}")
+    return known[given]
+
+
 def _names(given):
-    return [given] if isinstance(given, str) else list(given)
+    return [os.fsencode(name) for name in ([given] if isinstance(given, str) else given)]
 
 
 def _warn_of_surfaces(message):
@@ -169,7 +204,7 @@ def _bodies_of(meshes, most, progress):
         else:
             sequences += read_sequence(mesh, frames=most, progress=progress)
     _make_names_differ(sequences)
-    return [_tact._BodyFrames(one.name, one.positions, one.facets, one.times, one.files) for one in sequences]
+    return [_tact._BodyFrames(one.name, one.positions, one.facets, one.vertices, one.times, one.files) for one in sequences]
 
 
 def _frame_count(bodies, frames):

@@ -35,6 +35,8 @@ class MeshSequence:
 
     def __init__(self, name, positions, facets, vertices=None, times=(), files=()):
         self.name, self.positions, self.facets = name, list(positions), facets
+        if not self.positions:
+            raise ValueError(f"{name}: it has no frames")
         self.vertices = np.arange(len(self.positions[0]), dtype=np.int32) if vertices is None else vertices
         self.times, self.files = list(times), list(files)
 
@@ -45,8 +47,7 @@ class MeshSequence:
         return Mesh(self.name, self.positions[frame], self.facets, self.vertices)
 
     def __repr__(self):
-        size = f"{len(self.positions[0])} vertices, {len(self.facets)} facets" if self.positions else "nothing"
-        return f"<tact.MeshSequence {self.name}: {len(self)} frames of {size}>"
+        return f"<tact.MeshSequence {self.name}: {len(self)} frames of {len(self.positions[0])} vertices, {len(self.facets)} facets>"
 
 
 def read(path, *, displacement=None):
@@ -70,7 +71,7 @@ def read_sequence(*paths, frames=None, displacement=None, progress=True):
     files tell, their bodies; an .xdmf file its steps. `frames`: the first so many. All frames of a body have the facets of
     the first. Errors as of read().
     """
-    most = EVERY if frames is None else frames
+    most = _most(frames)
     for path in paths:
         os.stat(path)
     if displacement is None and all(_is_own(path) for path in paths):
@@ -85,8 +86,14 @@ def read_sequence(*paths, frames=None, displacement=None, progress=True):
     return bodies
 
 
+def _most(frames):
+    if frames is not None and frames < 1:
+        raise ValueError(f"frames is {frames}, not at least 1")
+    return EVERY if frames is None else frames
+
+
 def _sequence_of(body):
-    return MeshSequence(body.name, body.positions, body.facets, None, body.times, body.files)
+    return MeshSequence(body.name, body.positions, body.facets, body.vertices, body.times, body.files)
 
 
 def _read_own(paths, most, progress):
@@ -184,7 +191,8 @@ def _read_one(path):
     except (SystemExit, Exception) as error:  # meshio leaves the program where it knows no reader
         if isinstance(error, OSError):
             raise
-        raise ValueError(f"{path}: meshio cannot read it: {error}") from None
+        reason = "it knows no reader for it" if isinstance(error, SystemExit) else error
+        raise ValueError(f"{path}: meshio cannot read it: {reason}") from None
 
 
 def _frames_by_meshio(name, files, times, displacement, progress):
@@ -251,6 +259,11 @@ def _surface(points, cells, path):
     if not np.isfinite(points).all():
         vertex = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
         raise ValueError(f"{path}: vertex {vertex} is not finite")
+    for block in cells:
+        corners = np.asarray(block.data)
+        if corners.dtype != object and corners.size and not 0 <= corners.min() <= corners.max() < len(points):
+            wrong = corners.min() if corners.min() < 0 else corners.max()
+            raise ValueError(f"{path}: a {block.type} names vertex {wrong} of {len(points)}")
     outer = _boundary(points, cells)
     if outer:
         used = np.unique(np.concatenate([face.ravel() for face in outer]))

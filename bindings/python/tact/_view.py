@@ -34,6 +34,8 @@ def view(what, *, title=None, height=640, every=1, start=0, stop=None, few_point
     wrote; of its steps the page shows every `every`th from `start` to `stop`. Errors: ValueError, OSError, Error.
     """
     if isinstance(what, _tact.World):
+        if every != 1 or start != 0 or stop is not None or few_points or points or curves:
+            raise TypeError("every, start, stop, few_points, points and curves are for recordings: a world shows its one step as its settings are")
         text = _tact._page_of_world(what, title or "world")
     else:
         os.stat(what)
