@@ -62,7 +62,8 @@ struct Bounds {
 ///   for (const tact::Contact& contact : world.detect().contacts()) ...
 ///
 /// A function that throws Error has changed nothing; see detect(). Many threads may call const functions of one world
-/// at once, between calls that change it. Neither threads nor the caller's floating-point mode change answers.
+/// at once, between calls that change it. Neither threads nor the caller's floating-point mode change answers. What is
+/// cast before a call, such as a matrix of floats for one of doubles, is cast in the caller's mode.
 class TACT_API World {
  public:
   /// Makes a world of no bodies. Errors: bad_settings, out_of_memory.
