@@ -167,7 +167,8 @@ SweepHit find_swept(const Bodies& bodies, const Sweep& sweep) {
 Overlap find_overlap(const Bodies& bodies, BodyId a, BodyId b) {
   const auto closed = [&](BodyId id) -> narrowphase::ClosedMesh {
     const Body& body = bodies.at(id);
-    if (body.plane != nullptr || !body.has_inside) refuse("body '" + body.name + "' is not closed");
+    if (body.plane != nullptr) refuse("body '" + body.name + "' is a plane, which has no volume");
+    if (!body.has_inside) refuse("body '" + body.name + "' is not closed");
     return {&bodies.placed(id.index).mesh, body.is_outward};
   };
   const narrowphase::ClosedMesh of_a = closed(a), of_b = closed(b);

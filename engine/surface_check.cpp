@@ -215,7 +215,8 @@ SurfaceCheck check_surface(std::span<const Vec3> positions, std::span<const Face
 }
 
 bool SurfaceCheck::is_solid() const {
-  return !components.empty() && std::ranges::all_of(components, [](const SurfaceComponent& one) { return one.closed && !one.inside_out; });
+  return !components.empty() &&
+         std::ranges::all_of(components, [](const SurfaceComponent& one) { return one.closed && !one.inside_out; });
 }
 
 bool SurfaceCheck::is_clean() const {

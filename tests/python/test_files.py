@@ -186,13 +186,18 @@ def test_series_of_meshio_move(tmp_path):
     cells = [("triangle", FACETS)]
     entries = ""
     for frame in range(3):
-        meshio.Mesh(CORNERS + [0.5 * frame, 0, 0], cells, point_data={"u": np.ones((4, 3))}).write(tmp_path / f"f{frame}.vtu")
+        meshio.Mesh(CORNERS + [0.5 * frame, 0, 0], cells, point_data={"u": np.ones((4, 3)), "t": np.ones(4)}).write(tmp_path / f"f{frame}.vtu")
         entries += f'<DataSet timestep="{0.1 * frame}" file="f{frame}.vtu"/>'
     (tmp_path / "run.pvd").write_text(f'<VTKFile type="Collection"><Collection>{entries}</Collection></VTKFile>')
     (series,) = tact.read_sequence(tmp_path / "run.pvd")
     assert len(series) == 3 and series.times == [0.0, 0.1, 0.2]
     assert np.array_equal(series.positions[2], CORNERS + [1.0, 0, 0])
     assert np.array_equal(tact.read(tmp_path / "f1.vtu", displacement="u").positions, CORNERS + [1.5, 1, 1])
+    with pytest.raises(ValueError, match="f1.vtu: 't' has 1 components, not 2 or 3"):
+        tact.read(tmp_path / "f1.vtu", displacement="t")
+    meshio.Mesh(CORNERS, [("triangle", FACETS + 5)]).write(tmp_path / "wrong.vtu")
+    with pytest.raises(ValueError, match="wrong.vtu: a triangle names vertex 8 of 4"):
+        tact.read(tmp_path / "wrong.vtu")
     with meshio.xdmf.TimeSeriesWriter(tmp_path / "steps.xdmf", data_format="XML") as writer:
         writer.write_points_cells(CORNERS, cells)
         for step in range(3):

@@ -239,8 +239,8 @@ def _moved(points, data, displacement, path):
     if displacement not in data:
         raise ValueError(f"{path}: no point data are called {displacement!r}; there are: {', '.join(data) or 'none'}")
     moves = np.asarray(data[displacement], float).reshape(len(points), -1)
-    if moves.shape[1] > 3:
-        raise ValueError(f"{path}: {displacement!r} has {moves.shape[1]} components")
+    if moves.shape[1] not in (2, 3):
+        raise ValueError(f"{path}: {displacement!r} has {moves.shape[1]} components, not 2 or 3")
     return points + np.pad(moves, ((0, 0), (0, 3 - moves.shape[1])))
 
 

@@ -1,6 +1,6 @@
 // What solvers of any kind write beside contact points: rows of a system, derivatives of gaps, barrier, penalty,
-// friction, colours. It is made of inline functions on the report; nothing of the engine includes it. They are as exact as
-// they say if they are compiled without -ffast-math.
+// friction, colours. It is made of inline functions on the report; nothing of the engine includes it. They are as exact
+// as they say if they are compiled without -ffast-math.
 //
 //     Eigen::Matrix3Xd x = ...;                             // the vertices of all bodies, those that move first
 //     for (const tact::solver::Stencil& stencil : tact::solver::stencils(world.detect(), first_rows)) {
