@@ -161,13 +161,13 @@ class Crossed {
         if (was_inside || along > kBand) continue;
         certain = certain && along < -kBand;
       }
-      const auto led = [&](long double shift) {
+      const auto led = [&, &vertex = v, &own_way = way](long double shift) {  // by name: Clang 14 captures no binding
         Way found;
         for (const long double cosine : {0.5L, 0.05L}) {
-          found = nearest_facing(other_, at(own_, v), sign_ * separation.direction, cosine + shift);
+          found = nearest_facing(other_, at(own_, vertex), sign_ * separation.direction, cosine + shift);
           if (found.distance <= depth_ + 1e-12L + shift) return found;
         }
-        return way;
+        return own_way;
       };
       const Way found = led(0);
       certain = (certain || separation.leads_all) && std::abs(led(kBand).distance - found.distance) <= kBand &&
