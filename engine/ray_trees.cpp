@@ -18,7 +18,7 @@ void RayTrees::begin(const Bodies& bodies, std::size_t rays, int threads) {
   begin_one(trees_.front());
   const auto copies = static_cast<std::size_t>(threads);
   const std::size_t nodes = trees_.front().batch.node_count();
-  own_ = nodes <= kMostOwnNodes && rays >= kRaysOfOwnNode * copies * nodes;
+  own_ = nodes > 0 && nodes <= kMostOwnNodes && rays >= kRaysOfOwnNode * copies * nodes;
   if (!own_) return make(bodies, threads, trees_.front());
   if (trees_.size() < copies) trees_.resize(copies);
   for (std::size_t k = 1; k < copies; ++k) begin_one(trees_[k]);

@@ -516,28 +516,6 @@ TEST(FeatureFilters, GoWithFacetsThatChange) {
   }
 }
 
-// A filter that was set while there were no vertices: all rest where they are set.
-TEST(SelfContactFilters, OfABodyWithoutVerticesAreThoseOfItsFirst) {
-  World world({.threads = 1, .outputs = kAllFound});
-  const BodyId body = world.add_body({.positions = Eigen::Matrix3Xd(3, 0),
-                                      .facets = Eigen::Matrix3Xi(3, 0),
-                                      .surface = Surface::sheet,
-                                      .margin = 0.1,
-                                      .self_contact = true});
-  world.set_self_contact_filter(body, {.rest_distance = 0.5});
-  Eigen::Matrix3Xd x(3, 6);
-  x << 0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0.1, 0.1, 0.1;
-  Eigen::Matrix3Xi facets(3, 2);
-  facets << 0, 3, 1, 4, 2, 5;
-  world.set_facets(body, x, facets, std::vector<int>(6, -1));
-  EXPECT_EQ(world.self_contact_filter(body).rest_positions.cols(), 6);
-  EXPECT_TRUE(world.detect().contacts().empty());
-  World other;
-  other.restore(world.save());
-  world.set_self_contact_filter(body, {.rest_distance = 0.05});
-  EXPECT_FALSE(world.detect().contacts().empty());
-}
-
 TEST(FeatureFilters, AreSavedAndRecorded) {
   const FilteredScene scene(4);
   std::ostringstream stream;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <vector>
 
 #include "tests/support/checks/detection.h"
 #include "tests/support/generators/bodies.h"
@@ -281,6 +282,28 @@ TEST(SelfContact, GoesFromOneBodyToAnotherBetweenTwoSteps) {
     EXPECT_EQ(report.contacts()[i].a.index, expected.contacts()[i].a.index);
     EXPECT_EQ(report.contacts()[i].b.index, expected.contacts()[i].b.index);
   }
+}
+
+// A filter that was set while there were no vertices: all rest where they are set.
+TEST(SelfContactFilters, OfABodyWithoutVerticesAreThoseOfItsFirst) {
+  World world({.threads = 1, .outputs = {.points = true}});
+  const BodyId body = world.add_body({.positions = Eigen::Matrix3Xd(3, 0),
+                                      .facets = Eigen::Matrix3Xi(3, 0),
+                                      .surface = Surface::sheet,
+                                      .margin = 0.1,
+                                      .self_contact = true});
+  world.set_self_contact_filter(body, {.rest_distance = 0.5});
+  Eigen::Matrix3Xd x(3, 6);
+  x << 0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0.1, 0.1, 0.1;
+  Eigen::Matrix3Xi facets(3, 2);
+  facets << 0, 3, 1, 4, 2, 5;
+  world.set_facets(body, x, facets, std::vector<int>(6, -1));
+  EXPECT_EQ(world.self_contact_filter(body).rest_positions.cols(), 6);
+  EXPECT_TRUE(world.detect().contacts().empty());
+  World other;
+  other.restore(world.save());
+  world.set_self_contact_filter(body, {.rest_distance = 0.05});
+  EXPECT_FALSE(world.detect().contacts().empty());
 }
 
 }  // namespace
