@@ -160,7 +160,7 @@ void find_inside_out(const World& world, std::span<const Vec3> positions, std::s
                      SurfaceCheck& check) {
   std::vector<PointQuery> queries;
   double size = 0.0;
-  for (const Vec3& p : positions) size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  for (const Vec3& p : positions) size = std::max(size, largest_coordinate(p));
   for (const SurfaceComponent& component : check.components) {
     const Facet& corners = facets[static_cast<std::size_t>(component.facet)];
     const auto corner = [&](std::size_t k) { return to_eigen(positions[static_cast<std::size_t>(corners[k])]); };
