@@ -1,32 +1,5 @@
-// Reports as JSON, of `tact check` and `tact run` alike:
-//
-//   {"tact":"<version>","accuracy":"exact","threads":2,
-//    "bodies":[{"name":"spot.ply","vertices":2930,"facets":5856,"surface":"closed"},...],
-//    "frames":[{"frame":0,"hash":"<16 hexadecimal digits>",
-//      "pairs":[{"a":0,"b":1,"hulls_overlap":true,"direction":[x,y,z],"depth":d,
-//                "source":"carried","iterations":k,"limit_reached":false,"kept_facets":[ka,kb],
-//                "outcomes":[{"outside_box":n,...,"meets":n},{...}],"facet_pairs":[[fa,fb],...]},...],
-//      "stats":{"bodies":2,...},"times_ms":{"refresh":0.1,...},
-//      "impacts":[{"bodies":[0,1],"kind":"edge-edge","a":[1,2],"b":[7,9],"time":t},...],"first_time":t,
-//      "time":0.5,"files":["cloth/frame_2.obj","ball.obj"]}],
-//    "interrupted":true}
-//
-// `a` and `b` are places in `bodies`. `pairs` are the candidate pairs, sorted by (a, b); one whose hulls are apart has
-// only "hulls_overlap":false and an empty "facet_pairs". "source" tells how the direction was found: "carried", "fresh"
-// or "smallest"; "outcomes" how many facets of each body had each FacetOutcome, where they were requested;
-// "limit_reached" whether it is only the best that was found before a limit. At Accuracy::hulls every "facet_pairs" is
-// null. `stats` and `times_ms` have the names of <tact/statistics.h>, the times without their "_ms". `impacts` are
-// those since the frame before, sorted by bodies and then by time, where they are requested; `first_time` is null if
-// there is none. `files` names the file of each body, where a folder moves one, and `time` is that of the frame in a
-// series, seconds. A body of `tact check --weld` tells
-// how many vertices merged with an earlier one, "merged_vertices", and "collapsed_facets"; one of `--surfaces` has its
-// "check", see surface_report.h. A body with itself has `a` equal to `b` and facet pairs; where points are requested
-// "point_limit_reached" tells whether some are missing. A pair has "points", of which each says whether it is a minimum
-// of both surfaces, "patches" and "curves" where these are requested; a curve has its "points" in order, whether it is
-// "closed", and the "facets" between them: [{"closed":true,"points":[[x,y,z],...],"facets":[[fa,fb],...]},...].
-// `interrupted` is there only if Ctrl-C ended the frames. Numbers
-// read back to the same double; ids of patches, which may be no double, are 16 hexadecimal digits. A name that is not
-// UTF-8 has U+FFFD in the place of each wrong byte.
+// Reports as JSON, of `tact check`, `tact run` and `tact view` alike. docs/pages/json.md tells the form, and a test
+// holds it against what is written.
 #pragma once
 
 #include <tact/motion.h>

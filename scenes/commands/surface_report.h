@@ -9,9 +9,7 @@
 
 namespace tact::scenes {
 
-// Of one body: {"solid":true,"components":[{"facet":0,"facets":12,"closed":true,"inside_out":false},...],
-// "border_edges":[[v,w],...],"branching_edges":[...],"turned_facets":[f,...],"crossings":[[f,g],...],
-// "repeated_facets":[[f,g],...],"repeated_vertices":[[v,w],...],"slivers":[f,...],"unused_vertices":[v,...]}
+// Of one body; docs/pages/json.md tells the form.
 Json surface_json(const SurfaceCheck& check);
 
 // Prints what was found of each body, a line a fault with its first places.

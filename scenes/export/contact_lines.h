@@ -1,11 +1,4 @@
-// Contacts as JSON lines, an object a step:
-//
-//   {"frame":12,"time":0.2,"contacts":[{"a":0,"b":3,"names":["bowl","ball#2"],"direction":[x,y,z],"depth":d,
-//    "source":"carried","facet_pairs":[[fa,fb],...]},...]}
-//
-// `contacts` are the pairs whose hulls overlap, sorted by (a, b); the direction points from a to b, the depth is in
-// metres, the time in seconds. At Accuracy::hulls, which looks at no facets, all "facet_pairs" are empty. Numbers read
-// back to the same double. In names, U+FFFD stands for bytes that are not UTF-8.
+// Contacts as JSON lines, an object a step; docs/pages/json.md tells the form.
 #pragma once
 
 #include <tact/report.h>
