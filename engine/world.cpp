@@ -8,6 +8,7 @@
 #include <new>
 #include <utility>
 
+#include "engine/base/parallel.h"
 #include "engine/base/text.h"
 #include "engine/check_name.h"
 #include "engine/failed_step.h"
@@ -32,8 +33,8 @@ std::uint32_t next_world() {
 [[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::bad_settings, what); }
 
 Settings checked(Settings settings) {
-  if (settings.threads < 0 || settings.threads > 1024)
-    refuse("threads is " + std::to_string(settings.threads) + ", not 0 to 1024");
+  if (settings.threads < 0 || settings.threads > base::kMostThreads)
+    refuse("threads is " + std::to_string(settings.threads) + ", not 0 to " + std::to_string(base::kMostThreads));
   if (!(settings.gjk_tolerance >= 1e-15 && settings.gjk_tolerance <= 0.1)) {
     refuse("gjk_tolerance is " + base::text_of(settings.gjk_tolerance) + ", not 1e-15 to 0.1");
   }

@@ -31,12 +31,15 @@
 
 namespace tact::base {
 
+// The most that Settings::threads takes.
+inline constexpr int kMostThreads = 1024;
+
 // The number of threads that `threads = 0` stands for.
 inline int default_threads() {
 #if !defined(TACT_WITHOUT_OPENMP)
-  return std::clamp(omp_get_max_threads(), 1, 1024);  // as Settings::threads
+  return std::clamp(omp_get_max_threads(), 1, kMostThreads);
 #else
-  return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 1024u));
+  return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, unsigned{kMostThreads}));
 #endif
 }
 
@@ -221,7 +224,7 @@ void run_on_executor(int threads, Executor& executor, const Run& run) {
   struct Call {
     const Run& run;
     int threads;
-    std::array<std::atomic<std::uint64_t>, 16> called = {};  // a bit a task: Settings::threads is 1024 at most
+    std::array<std::atomic<std::uint64_t>, kMostThreads / 64> called = {};  // a bit a task
 
     void once(int index) {
       if (index < 0 || index >= threads) return;
@@ -254,7 +257,7 @@ void parallel_for(std::size_t count, std::size_t grain, int threads, const Work&
   if (executor == nullptr) executor = &ThreadPool::shared();
 #endif
   if (executor != nullptr) {
-    const auto tasks = std::min({loop.blocks(), static_cast<std::size_t>(threads), std::size_t{1024}});
+    const auto tasks = std::min({loop.blocks(), static_cast<std::size_t>(threads), std::size_t{kMostThreads}});
     run_on_executor(static_cast<int>(tasks), *executor, run);
     loop.failed().rethrow();
     return;

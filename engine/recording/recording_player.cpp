@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/floating_point_mode.h"
+#include "engine/base/parallel.h"
 #include "engine/bodies/columns.h"
 #include "engine/failed_step.h"
 #include "engine/recording/byte_reader.h"
@@ -28,8 +29,9 @@ constexpr const char* kNoMemory = "playing a recording ran out of memory";
 struct RecordingPlayer::Implementation {
   Implementation(std::string_view bytes, const PlayOptions& given) : reader(bytes), options(given) {
     const base::FloatingPointMode mode;
-    if (options.threads && (*options.threads < 0 || *options.threads > 1024))
-      throw Error(ErrorCode::invalid_argument, "threads is " + std::to_string(*options.threads) + ", not 0 to 1024");
+    if (options.threads && (*options.threads < 0 || *options.threads > base::kMostThreads))
+      throw Error(ErrorCode::invalid_argument, "threads is " + std::to_string(*options.threads) + ", not 0 to " +
+                                                   std::to_string(base::kMostThreads));
     try {
       read_head(bytes);
       if (read_kind() != RecordKind::settings) fail("the first record is not one of settings");
