@@ -211,7 +211,7 @@ TEST(FacetDecisions, PairsOnALatticeAreAllDecided) {
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     for (const auto& [scale, offset] :
          {std::pair{1.0, 0.0}, {0x1p-6, 0x1p20}, {0x1p-100, -0x1p-80}, {3.0, 0x1p36}, {1000.0, 5e8}}) {
-      const auto placed = [&](std::uint64_t of) {
+      const auto placed = [scale = scale, offset = offset](std::uint64_t of) {
         Mesh mesh = tests::lattice_soup(60, of % 2 == 0 ? 1 : 3, of);
         mesh.positions = (scale * mesh.positions).array() + offset;
         return mesh;
