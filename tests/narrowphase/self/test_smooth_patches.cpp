@@ -126,7 +126,7 @@ std::size_t expect_no_point_denied(const Mesh& mesh, const std::string& what) {
   std::size_t points = 0;
   for (const auto& [key, point] : tests::points_by_brute_force(mesh, mesh, 4 * size, 1e-12 * size)) {
     const auto& [kind, a, b] = key;
-    const bool share = std::ranges::any_of(a, [&](int v) { return v >= 0 && std::ranges::find(b, v) != b.end(); });
+    const bool share = std::ranges::any_of(a, [&b = b](int v) { return v >= 0 && std::ranges::find(b, v) != b.end(); });
     if (share || !point.certain || kind == FeaturePair::facet_vertex || b < a) continue;
     ++points;
     for (const int cluster_a : verdicts.clusters_of(a)) {
