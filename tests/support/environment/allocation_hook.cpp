@@ -75,6 +75,14 @@ void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { f
 
 namespace tact::tests {
 
+bool is_hooked() {
+#ifdef TACT_KEEP_OPERATOR_NEW
+  return false;
+#else
+  return true;
+#endif
+}
+
 long allocation_count() { return allocations; }
 
 void fail_allocation(long number, bool for_good) {

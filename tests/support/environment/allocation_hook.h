@@ -4,6 +4,9 @@
 
 namespace tact::tests {
 
+// Whether operator new is replaced: the thread sanitizer has one of its own, and then nothing is counted or fails.
+bool is_hooked();
+
 // Calls of operator new so far, by any thread.
 long allocation_count();
 
