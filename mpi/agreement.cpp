@@ -5,41 +5,27 @@
 #include <string>
 #include <utility>
 
-#include "engine/base/hash.h"
 #include "mpi/world_implementation.h"
 
 namespace tact::mpi {
-
-namespace {
-
-std::uint64_t hash_of(const Settings& settings) {
-  base::Hash hash;
-  hash.add(WorldParts::checksum(WorldParts::settings_bytes(settings.world)));
-  hash.add(settings.rebalance_above);
-  hash.add(static_cast<std::uint64_t>(settings.partitioner));
-  return hash.value();
-}
-
-}  // namespace
 
 // Ends with ghosts as their owners have them, and what is kept of pairs where it belongs.
 bool World::Implementation::begin(bool for_step) {
   channel.reset_counts();
   stats = {};
-  const std::uint64_t of_settings = hash_of(settings);
-  std::array<std::uint64_t, 8> all{parts.any_moved() || !removed.empty(),
+  const std::uint64_t of_shared = hash_of_shared();
+  std::array<std::uint64_t, 6> all{parts.any_moved() || !removed.empty(),
                                    !new_keys.empty() || !gone_keys.empty(),
                                    !exclusions.empty(),
-                                   of_settings,
-                                   ~of_settings,
-                                   shared_hash,
-                                   ~shared_hash,
+                                   of_shared,
+                                   ~of_shared,
                                    lost_ghost};
   channel.largest(all);
-  if (all[3] != ~all[4]) throw Error(ErrorCode::bad_settings, "the ranks have different settings");
-  if (all[5] != ~all[6])
+  if (all[3] != ~all[4])
     throw Error(ErrorCode::invalid_argument, "the ranks hold different bodies that every rank should hold");
-  if (all[7] != 0) drop_ghosts(true);
+  new_shared.clear();
+  removed_shared = 0;
+  if (all[5] != 0) drop_ghosts(true);
   lost_ghost = false;
   if (all[1] != 0) update_directory();
   if (all[2] != 0) send_exclusions();

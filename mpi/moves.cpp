@@ -138,7 +138,8 @@ void World::Implementation::pack_state(std::uint64_t key, ByteWriter& to) {
   if (body_state.pack) to.put_all(body_state.pack(key));
 }
 
-// The ghost gives way; what is kept of its pairs, whose hosts are here, waits for the next step.
+// The ghost gives way; what is kept of its pairs, whose hosts are here, waits for the next step. Hosts that leave have
+// it with them, but for what has ended.
 void World::Implementation::ghost_becomes_own(std::uint64_t key) {
   held.shapes.erase(key);
   const auto found = held.ghosts.find(key);
@@ -146,7 +147,7 @@ void World::Implementation::ghost_becomes_own(std::uint64_t key) {
   const BodyId id = found->second.id;
   for (SavedPair& pair : parts.pairs_of({&id, 1})) {
     const std::uint64_t host = pair.key_a == key ? pair.key_b : pair.key_a;
-    waiting.push_back({host, std::move(pair)});
+    waiting_of_ghosts.push_back({host, std::move(pair)});
   }
   parts.take({&id, 1});
   held.drop(id);
@@ -204,6 +205,8 @@ void World::Implementation::undo(std::span<const Arrival> arrivals) {
     if (body_state.drop) body_state.drop(arrival.key);
   }
   parts.take(ids);
+  for (WaitingPair& one : waiting_of_ghosts) waiting.push_back(std::move(one));
+  waiting_of_ghosts.clear();
   drop_ghosts(true);
 }
 
@@ -239,6 +242,10 @@ void World::Implementation::take_in(std::vector<Arrival>&& arrivals) {
   for (const Arrival& arrival : arrivals) {
     for (const ExcludedPair& pair : arrival.excluded) exclude_here(pair, true);
   }
+  for (WaitingPair& one : waiting_of_ghosts) {
+    if (one.pair.bytes.empty() || held.own.contains(one.host)) waiting.push_back(std::move(one));
+  }
+  waiting_of_ghosts.clear();
 }
 
 }  // namespace tact::mpi

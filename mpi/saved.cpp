@@ -45,7 +45,7 @@ Bytes World::Implementation::common_bytes() {
   ByteWriter writer;
   writer.put_all(WorldParts::settings_bytes(local.settings()));
   writer.put_all(parts.steps());
-  writer.put(shared_hash, std::uint64_t{held.shared.size()});
+  writer.put(hash_of_shared(), std::uint64_t{held.shared.size()});
   for (const auto& [key, id] : held.shared) {
     writer.put(key);
     writer.put_all(parts.shape(id));
@@ -137,7 +137,7 @@ void World::Implementation::take_common(std::span<const std::byte> bytes) {
   ByteReader reader(bytes);
   reader.get_bytes();  // the settings
   parts.set_steps(reader.get_bytes());
-  shared_hash = reader.get<std::uint64_t>();
+  const auto hash = reader.get<std::uint64_t>();
   for (auto count = reader.get<std::uint64_t>(); count > 0; --count) {
     const auto key = reader.get<std::uint64_t>();
     const auto shape = reader.get_bytes(), rest = reader.get_bytes();
@@ -145,6 +145,7 @@ void World::Implementation::take_common(std::span<const std::byte> bytes) {
     held.hold(id, {Held::Role::shared, channel.rank(), order_of_new(id, key)});
     held.shared[key] = id;
   }
+  removed_shared = hash - hash_of_shared();
 }
 
 // Into a world that is new; `states` are of the program.

@@ -25,12 +25,23 @@ void check(const Settings& settings) {
     refuse(ErrorCode::bad_settings, "the partitioner has no name");
 }
 
-// Settings that are good on all ranks.
+std::uint64_t hash_of(const Settings& settings) {
+  base::Hash hash;
+  hash.add(WorldParts::checksum(WorldParts::settings_bytes(settings.world)));
+  hash.add(settings.rebalance_above);
+  hash.add(static_cast<std::uint64_t>(settings.partitioner));
+  return hash.value();
+}
+
+// Settings that are good, and the same on all ranks.
 Settings agreed(const Settings& settings, Channel& channel) {
   channel.together([&] {
     check(settings);
     tact::World trial(settings.world);  // throws if they are bad
   });
+  const auto hashes = channel.gather(hash_of(settings));
+  if (std::ranges::any_of(hashes, [&](std::uint64_t hash) { return hash != hashes.front(); }))
+    refuse(ErrorCode::bad_settings, "the ranks have different settings");
   return settings;
 }
 
@@ -162,7 +173,14 @@ void World::Implementation::hold_shared(BodyId id, std::uint64_t key, std::uint6
   parts.set_birth(id, hash);
   held.hold(id, {Held::Role::shared, channel.rank(), order_of_new(id, key)});
   held.shared[key] = id;
-  shared_hash += hash;
+  new_shared.insert(key);
+}
+
+// The same on all ranks if they hold the same, and removed the same since they last agreed.
+std::uint64_t World::Implementation::hash_of_shared() const {
+  std::uint64_t hash = removed_shared;
+  for (const auto& [key, id] : held.shared) hash += parts.birth(id);
+  return hash;
 }
 
 World::World(MPI_Comm communicator, const Settings& settings)
@@ -228,7 +246,7 @@ void World::remove_body(std::uint64_t key) {
     i.held.gone[id] = {key, -1, true};
     i.held.drop(id);
     i.held.shared.erase(shared);
-    i.shared_hash += base::mixed(key);
+    if (i.new_shared.erase(key) == 0) i.removed_shared += base::mixed(key);
     return;
   }
   OwnBody& body = i.at(key);
@@ -343,6 +361,7 @@ void World::set_self_contact_filter(std::uint64_t key, const SelfContactFilter& 
 }
 void World::set_excluded(std::uint64_t key, std::uint64_t other, bool excluded) {
   Implementation& i = implementation();
+  if (!i.held.own.contains(key) && i.held.own.contains(other)) std::swap(key, other);
   i.at(key);
   if (key == other) refuse(ErrorCode::invalid_argument, key_text(key) + ": a pair is of two bodies; see self_contact");
   i.set_excluded({.key = key, .other = other}, excluded);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -95,10 +96,12 @@ struct World::Implementation {
   std::vector<std::uint64_t> new_keys, gone_keys;
   std::vector<Exclusion> exclusions;
   std::map<std::uint64_t, std::vector<Subscriber>> removed;  // bodies of this rank, and who has copies
-  std::uint64_t shared_hash = 0;                             // of the bodies that every rank holds
+  std::set<std::uint64_t> new_shared;                        // that every rank holds, since all agreed on them
+  std::uint64_t removed_shared = 0;                          // a hash of those that went since
   std::map<std::uint64_t, int> new_owners;                   // that set_owner() asked for
   std::vector<WaitingPair> waiting;
-  bool needs_near = false;  // bodies have other owners, or space is cut anew, on any rank
+  std::vector<WaitingPair> waiting_of_ghosts;  // that became own bodies, until all have arrived
+  bool needs_near = false;                     // bodies have other owners, or space is cut anew, on any rank
   bool owners_changed = false;
   bool lost_ghost = false;                         // of this rank: one that its owner counts on is gone
   std::int64_t moved_bodies = 0, moved_bytes = 0;  // since the last step
@@ -121,6 +124,7 @@ struct World::Implementation {
   OwnBody& at(std::uint64_t key);
   HostOrder order_of_new(BodyId id, std::uint64_t key) const;
   void hold_shared(BodyId id, std::uint64_t key, std::uint64_t hash);
+  std::uint64_t hash_of_shared() const;
   void note_change(OwnBody& body, bool has_moved);
   bool forget_ghost(std::uint64_t key);  // whether there was one
   template <class Definition, class Add>

@@ -369,6 +369,7 @@ void WorldParts::check(const PlaneDefinition& definition) const {
   with_memory("adding a plane ran out of memory", [&] { bodies_.check(definition); });
 }
 void WorldParts::set_birth(BodyId body, std::uint64_t birth) { StateFields::set_birth(body, birth, bodies_); }
+std::uint64_t WorldParts::birth(BodyId body) const { return bodies_.in_slot(body.index).birth; }
 void WorldParts::mark_moved(BodyId body, bool is_on_its_way) {
   forget_ways();
   StateFields::mark_moved(body, is_on_its_way, bodies_);

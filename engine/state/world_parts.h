@@ -87,6 +87,7 @@ class TACT_API WorldParts {
   void remove_copy(BodyId body);
   /// What tells a body from another of its key: for bodies that several worlds hold alike, in whichever slots.
   void set_birth(BodyId body, std::uint64_t birth);
+  std::uint64_t birth(BodyId body) const;
   /// Notes that a body has moved, and is on its way even if it is where it was.
   void mark_moved(BodyId body, bool is_on_its_way);
   /// As World::set_excluded() and World::set_excluded_labels(), but that nothing has moved by that.

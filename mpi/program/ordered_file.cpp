@@ -12,6 +12,8 @@ namespace {
 
 using scenes::FileError;
 
+constexpr const char* kCut = "cannot write the file to its end";
+
 // Before each text of a message.
 struct Head {
   std::uint64_t first = 0, second = 0, size = 0;
@@ -49,10 +51,16 @@ std::vector<int> offsets_of(const std::vector<int>& sizes) {
 
 }  // namespace
 
+// Ranks cannot write to places of a pipe or a device.
 OrderedFile::OrderedFile(MPI_Comm communicator, std::filesystem::path path, std::uint64_t key_count)
-    : communicator_(communicator), path_(std::move(path)), part_(path_.string() + ".part"), key_count_(key_count) {
+    : communicator_(communicator), path_(std::move(path)), key_count_(key_count) {
   MPI_Comm_rank(communicator_, &rank_);
   MPI_Comm_size(communicator_, &ranks_);
+  std::error_code ignored;
+  const std::filesystem::file_status there = std::filesystem::status(path_, ignored);
+  const bool is_file = !std::filesystem::exists(there) || std::filesystem::is_regular_file(there);
+  check(is_file ? MPI_SUCCESS : MPI_ERR_FILE, "no file, which ranks could write to in parts");
+  part_ = std::filesystem::is_symlink(path_, ignored) ? path_ : std::filesystem::path(path_.string() + ".part");
   const int mode = MPI_MODE_CREATE | MPI_MODE_WRONLY;
   check(MPI_File_open(communicator_, part_.c_str(), mode, MPI_INFO_NULL, &file_), "cannot write the file");
   check(MPI_File_set_size(file_, 0), "cannot write the file");
@@ -62,7 +70,7 @@ OrderedFile::~OrderedFile() {
   if (file_ == MPI_FILE_NULL) return;
   MPI_File_close(&file_);
   std::error_code ignored;
-  if (rank_ == 0) std::filesystem::remove(part_, ignored);
+  if (rank_ == 0 && part_ != path_) std::filesystem::remove(part_, ignored);
 }
 
 // What failed on one rank is an error on all of them.
@@ -120,15 +128,22 @@ void OrderedFile::write(std::string_view text) {
   MPI_Exscan(&own, &before, 1, MPI_INT64_T, MPI_SUM, communicator_);
   MPI_Allreduce(&own, &all, 1, MPI_INT64_T, MPI_SUM, communicator_);
   const int count = static_cast<int>(text.size());
-  check(MPI_File_write_at_all(file_, end_ + before, text.data(), count, MPI_CHAR, MPI_STATUS_IGNORE),
-        "cannot write the file to its end");
+  MPI_Status status;
+  int written = 0;
+  check(MPI_File_write_at_all(file_, end_ + before, text.data(), count, MPI_CHAR, &status), kCut);
+  MPI_Get_count(&status, MPI_CHAR, &written);
+  check(written == count ? MPI_SUCCESS : MPI_ERR_NO_SPACE, kCut);
   end_ += all;
 }
 
+// Open MPI calls a write to a full disk a success: the size tells.
 void OrderedFile::finish() {
-  check(MPI_File_close(&file_), "cannot write the file to its end");
+  MPI_Offset size = 0;
+  check(MPI_File_get_size(file_, &size), kCut);
+  check(size == end_ ? MPI_SUCCESS : MPI_ERR_NO_SPACE, kCut);
+  check(MPI_File_close(&file_), kCut);
   std::error_code error;
-  if (rank_ == 0) std::filesystem::rename(part_, path_, error);
+  if (rank_ == 0 && part_ != path_) std::filesystem::rename(part_, path_, error);
   check(error ? MPI_ERR_FILE : MPI_SUCCESS, "cannot give the file its name");
 }
 

@@ -18,11 +18,13 @@ struct Piece {
   std::string text;
 };
 
-// All ranks call every function together. Until finish() the file is NAME.part, and an older file of its name stays.
+// All ranks call every function together. Until finish() the file is NAME.part, and an older file of its name stays. A
+// link leads to what is written at once.
 // No rank holds more than its share of the pieces, besides those that it gave.
 class OrderedFile {
  public:
-  // First keys are below `key_count`, and as many are near 0 as near it. Errors: FileError, on every rank.
+  // First keys are below `key_count`, and as many are near 0 as near it. Errors: FileError, on every rank, for a device
+  // or a pipe as well.
   OrderedFile(MPI_Comm communicator, std::filesystem::path path, std::uint64_t key_count);
   // Without finish(), nothing is left of the file.
   ~OrderedFile();
@@ -34,6 +36,7 @@ class OrderedFile {
   // Appends the pieces of all ranks in the order of their keys, of which no two are equal, with `separator` between
   // them.
   void append(std::vector<Piece> pieces, std::string_view separator);
+  // Call it after the last append(). Errors: FileError if not all of it was written.
   void finish();
 
  private:

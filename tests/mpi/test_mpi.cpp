@@ -145,6 +145,48 @@ void reused_slots(Size) {
   both.detect();
 }
 
+// A body is removed, another comes with its key, and bodies change ranks, before the next step tells what ended.
+void keys_that_return(Size) {
+  const int last = count_of_ranks() - 1;
+  const Mesh ball = icosphere(1);
+  for (int owners = 0; owners < 32; ++owners) {
+    const auto owner = [&](int i) { return (owners >> i & 1) != 0 ? last : 0; };
+    Both both("keys that return, " + std::to_string(owners), all_outputs());
+    both.add(definition_of(ball, 1, 0.1), owner(0));
+    both.add(definition_of(translated(ball, {1.8, 0.0, 0.0}), 2, 0.1), owner(1));
+    both.detect();
+    both.remove(2);
+    both.add(definition_of(translated(ball, {100.0, 0.0, 0.0}), 2, 0.1), owner(2));
+    for (const Key key : both.many.bodies()) both.many.set_owner(key, owner(key == 1 ? 3 : 4));
+    both.many.move_bodies();
+    both.detect();
+    both.on_owner(2, [&](auto& world, auto body) {
+      world.set_positions(body, translated(ball, {-100.0, 0.0, 0.0}).positions);
+    });
+    both.detect_motion(Impacts::all);
+  }
+}
+
+// Space is cut while nobody has a body.
+void nobody(Size) {
+  for (const mpi::Partitioner partitioner : {mpi::Partitioner::rcb, mpi::Partitioner::hsfc}) {
+    mpi::World world(MPI_COMM_WORLD, all_outputs(partitioner));
+    const Key own = 5 + static_cast<Key>(rank_of_all());
+    const Mesh ball = translated(icosphere(1), {1.8 * rank_of_all(), 0.0, 0.0});
+    for (int i = 0; i < 3; ++i) {
+      world.add_body(definition_of(ball, own, 0.1));
+      world.rebalance();
+      std::uint64_t counted = 0;
+      for (const mpi::Contact& contact : world.detect().contacts()) counted += contact.bodies.counted ? 1u : 0u;
+      MPI_Allreduce(MPI_IN_PLACE, &counted, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+      expect(counted == static_cast<std::uint64_t>(count_of_ranks() - 1),
+             "contacts are missing after nobody had a body");
+      for (const Key key : world.bodies()) world.remove_body(key);
+      world.rebalance();
+    }
+  }
+}
+
 // States are saved amid all that, and gone back to, by other ranks than those that saved them.
 void restored(Size size) {
   There saved;
@@ -294,6 +336,17 @@ void wrong_use(Size) {
          "labels of a plane");
   world.remove_body(98);
   if (count_of_ranks() == 1) return;
+  expect_on_all(caught([&] { mpi::World bad(MPI_COMM_WORLD, {.rebalance_above = rank_of_all() == 0 ? 2.0 : 3.0}); }),
+                "bad_settings: the ranks have different settings");
+  for (int i = 0; i < 2; ++i) {
+    if (rank_of_all() == i) world.add_plane({.key = 98});
+    expect_on_all(caught([&] { world.detect(); }),
+                  "invalid_argument: the ranks hold different bodies that every rank should hold");
+    if (rank_of_all() == i) world.remove_body(98);
+    world.detect();
+  }
+  if (rank_of_all() == 0) world.set_excluded(6, 5, true);
+  world.detect();
   if (rank_of_all() == 1) world.add_body(definition_of(mesh, 99, 0.0));
   world.detect();
   // A copy of a body of this key may be here: then the rank knows at once.
@@ -415,6 +468,8 @@ constexpr Case kCases[] = {{"pile", pile},
                            {"emptied", emptied},
                            {"churn", churn},
                            {"reused_slots", reused_slots},
+                           {"keys_that_return", keys_that_return},
+                           {"nobody", nobody},
                            {"excluded_labels", [](Size) { excluded_labels(); }},
                            {"exclusions", [](Size) { exclusions(); }},
                            {"restored", restored},

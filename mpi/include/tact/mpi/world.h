@@ -76,8 +76,8 @@ struct BodyState {
 /// Functions that take a key throw stale_body where this rank does not own the body.
 class TACT_API World {
  public:
-  /// Makes a world of no bodies, together; duplicates the communicator. Errors: bad_settings, out_of_memory,
-  /// wrong_order (MPI was not initialized).
+  /// Makes a world of no bodies, together; duplicates the communicator. Errors: bad_settings (also where the ranks give
+  /// different ones), out_of_memory, wrong_order (MPI was not initialized).
   explicit World(MPI_Comm communicator, const Settings& settings = {});
   /// Together, before MPI_Finalize().
   ~World();
@@ -87,7 +87,7 @@ class TACT_API World {
   int rank() const;                  ///< of this process
   int rank_count() const;            ///< of all
   const Settings& settings() const;  ///< valid until restore()
-  /// Sets the settings for the next step, together. Errors: bad_settings.
+  /// Sets the settings for the next step, together. Errors: bad_settings, also where the ranks give different ones.
   void set_settings(const Settings& settings);
 
   /// Adds a body of this rank. Errors: those of tact::World::add_body(), and invalid_argument without a key. Keys that
@@ -129,7 +129,8 @@ class TACT_API World {
   void set_excluded_labels(const LabelPair& labels, bool excluded);
 
   /// Takes one step, together. Errors: out_of_memory, backend_failure; bodies stay, and the next step starts from
-  /// scratch. invalid_argument: two ranks own bodies of one key.
+  /// scratch. invalid_argument: two ranks own bodies of one key, or the ranks hold different bodies that every rank
+  /// should hold. Till one of them takes that back, or the others do likewise, each call together says so.
   const Report& detect();
   /// Finds what meets between the positions of the last detect() and the current ones, together. `wanted` is the same
   /// on all ranks. Impacts::first gives the earliest of all ranks.
