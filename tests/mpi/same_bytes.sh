@@ -20,3 +20,14 @@ for ranks in "$@"; do
   cmp "$first" "$file" || { echo "other bytes on $ranks ranks"; exit 1; }
   echo "$ranks ranks: $(sha256sum < "$file" | cut -c 1-16), $(wc -c < "$file") bytes"
 done
+
+# A link leads to its file as before, and a pipe stays one.
+ln -s target.jsonl "$folder/link"
+mkfifo "$folder/pipe"
+mpirun --oversubscribe -n 2 "$program" pile --size 4 --frames 2 --out "$folder/link" > "$folder/link.txt"
+[[ -L $folder/link && -s $folder/target.jsonl ]] || { echo "a link was written over"; exit 1; }
+if mpirun --oversubscribe -n 2 "$program" pile --size 4 --frames 2 --out "$folder/pipe" > "$folder/pipe.txt" 2>&1; then
+  echo "a pipe was taken"
+  exit 1
+fi
+[[ -p $folder/pipe ]] && grep -q 'no file' "$folder/pipe.txt" || { echo "a pipe was written over"; exit 1; }
