@@ -45,26 +45,27 @@ function owned(name, ...values) {
 
 /** Two bodies whose hulls overlap, or are nearer than their margins. */
 class Contact {
-  #report; #index; #facetPairs; #facetPairCount; #patchCount; #curveCount;
+  #report; #index; #patchCount; #curveCount;
   constructor(report, index) {
-    const { a, b, facetPairs, facetPairCount, patchCount, curveCount, containment, ...rest } = withMemory((take) => {
-      const at = make(take, "tact_contact");
-      call("tact_report_contact", report.valid(), index, at);
-      return read("tact_contact", at);
-    });
     this.#report = report;
     this.#index = index;
-    this.#facetPairs = facetPairs;
-    this.#facetPairCount = facetPairCount;
+    const { a, b, facetPairs, facetPairCount, patchCount, curveCount, containment, ...rest } = this.#read();
     this.#patchCount = patchCount;
     this.#curveCount = curveCount;
     Object.assign(this, rest, { a: report.world.bodyOf(a), b: report.world.bodyOf(b), containment: nameOf("tact_containment", containment) });
   }
   get #handle() { return this.#report.valid(); }
-  /** Facet of a, facet of b, for each pair that meets. */
+  #read() {
+    return withMemory((take) => {
+      const at = make(take, "tact_contact");
+      call("tact_report_contact", this.#handle, this.#index, at);
+      return read("tact_contact", at);
+    });
+  }
+  /** Facet of a, facet of b, for each pair that meets. Where they lie is asked each time: the world may be gone. */
   get facetPairs() {
-    this.#report.valid();
-    return copyOf(Int32Array, this.#facetPairs, 2 * this.#facetPairCount);
+    const { facetPairs, facetPairCount } = this.#read();
+    return copyOf(Int32Array, facetPairs, 2 * facetPairCount);
   }
   get points() {
     const [at, count] = owned("tact_contact_points", this.#handle, this.#index);
@@ -115,8 +116,8 @@ class AnyReport extends StepResult {
   #contacts;
 
   get contacts() {
-    const handle = this.valid();
-    return this.#contacts ??= Array.from({ length: result(wordAt, 4, "tact_report_contacts", handle) }, (_, i) => new Contact(this, i));
+    const length = result(wordAt, 4, "tact_report_contacts", this.valid());
+    return this.#contacts ??= Array.from({ length }, (_, i) => new Contact(this, i));
   }
   findContact(a, b) {
     const index = withMemory((take) =>
