@@ -80,12 +80,17 @@ export function ready() {
   return loading ??= load();
 }
 
-/** Calls a function of tact_c.h that returns an error; throws it. */
-export function call(name, ...values) {
+/** Calls a function of tact_c.h that returns an error; gives it, or null. What a function of JavaScript threw comes out. */
+export function failureOf(name, ...values) {
   const code = library()[name](...values), failed = thrown;
   thrown = undefined;
   if (failed) throw failed.error;
-  if (code !== 0) throw new TactError(stringAt(wasm.tact_error_code_name(code)), stringAt(wasm.tact_last_error_message()));
+  return code === 0 ? null : new TactError(stringAt(wasm.tact_error_code_name(code)), stringAt(wasm.tact_last_error_message()));
+}
+/** The same; throws the error. */
+export function call(name, ...values) {
+  const failure = failureOf(name, ...values);
+  if (failure) throw failure;
 }
 
 export function stringAt(at) {

@@ -186,8 +186,8 @@ class KeptReport extends AnyReport {
     withMemory((take) => {
       const at = take(8);
       viewOf(BigUint64Array, at, 1)[0] = room.handle;
-      if (report !== kept) room.kept += 1;
       call("tact_report_keep", handle, at);
+      if (report !== kept) room.kept += 1;
       if (room.handle === 0n) {
         room.handle = longAt(at);
         handles.register(room, room.handle, room);

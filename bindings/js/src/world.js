@@ -4,11 +4,15 @@ import { Bodies } from "./bodies.js";
 import { drawing, makeOptions } from "./drawing.js";
 import { MotionReport, Report } from "./report.js";
 import {
-  TactError, call, callees, copyOf, doubleAt, handles, library, longAt, make, makeAll, nameOf, numberOf, placeString, read, readAll,
+  TactError, call, callees, copyOf, doubleAt, failureOf, handles, library, longAt, make, makeAll, nameOf, numberOf, placeString, read, readAll,
   result, sizeOf, stringAt, viewOf, withMemory, wordAt, write,
 } from "./memory.js";
 
 let callers = 0;
+/** The errors of calls that have not begun. */
+const REFUSED = new Set(["busy", "invalid_handle"]);
+/** The largest distance, metres. */
+const LARGEST = 2 ** 300;
 const flagAt = (at) => viewOf(Uint8Array, at, 1)[0] !== 0;
 const hitOrNone = (world, hit) => (hit.facet < 0 ? null : { ...hit, body: world.bodyOf(hit.body) });
 /** The fields of a mesh in tact_body_definition and tact_mesh_update. */
@@ -164,15 +168,25 @@ export class World {
     withMemory((take) => call("tact_world_set_excluded_labels", this.#handle, make(take, "tact_label_pair", labels), excluded ? 1 : 0));
   }
 
+  /** Calls what replaces the result of the last call of its kind, unless it is refused before it begins. */
+  #step(kind, name, ...values) {
+    const before = this.#steps[kind];
+    this.#steps[kind] += 1;
+    const failure = failureOf(name, this.#handle, ...values);
+    if (failure && REFUSED.has(failure.code)) this.#steps[kind] = before;
+    if (failure) throw failure;
+  }
   /** Takes one step. The report is valid until the next one. */
   detect() {
-    this.#steps.detect += 1;
-    call("tact_world_detect", this.#handle);
+    this.#step("detect", "tact_world_detect");
     return new Report(this, this.#steps);
   }
   detectMotion({ wanted = "all", distance, bounds = false } = {}) {
-    this.#steps.motion += 1;
-    withMemory((take) => call("tact_world_detect_motion_by", this.#handle, make(take, "tact_motion_options",
+    // What tact_c.h would refuse, too, but only after it has forgotten what it found before.
+    if (distance !== undefined && !(distance >= 0 && distance <= LARGEST)) {
+      throw new TactError("invalid_argument", `distance of motion is ${distance}, not 0 to 2^300`);
+    }
+    withMemory((take) => this.#step("motion", "tact_world_detect_motion_by", make(take, "tact_motion_options",
       { wanted: numberOf("tact_impacts", wanted), hasDistance: distance !== undefined, distance, bounds })));
     return new MotionReport(this, this.#steps);
   }
