@@ -1,4 +1,5 @@
-/** tact for JavaScript: finds where many deformable bodies touch. Lengths are metres. Enums are words, as "sheet". */
+/** tact for JavaScript: finds where many deformable bodies touch. Lengths are metres. Enums are words, as "sheet". Whole numbers
+ *  that do not fit are an "invalid_argument"; bits, as of layers and masks, may have a sign, ~0 say. */
 
 /** Loads tact. Everything else comes after it. */
 export function ready(): Promise<void>;
@@ -89,6 +90,7 @@ export interface BodyDefinition {
   mask?: number;
   /** For messages; by default "body <index>". */
   name?: string;
+  /** The program's own number, 0 to 2^64 - 1; as a number at most Number.MAX_SAFE_INTEGER. */
   externalId?: number | bigint;
   /** How far ahead of the surface contact points are seen, metres. */
   margin?: number;
@@ -96,7 +98,7 @@ export interface BodyDefinition {
   restOffset?: number;
   selfContact?: boolean;
   group?: number;
-  /** The order of bodies in all answers; by default the index. */
+  /** The order of bodies in all answers, 0 to 2^64 - 1; by default the index. */
   key?: number | bigint;
 }
 export interface PlaneDefinition {

@@ -162,13 +162,37 @@ const NUMBERS = {
   pointer: ["Uint32", 4], float: ["Float32", 4], double: ["Float64", 8], int64_t: ["BigInt64", 8], uint64_t: ["BigUint64", 8],
 };
 
+/** A value as errors show it. */
+export function shown(value) {
+  if (typeof value === "string") return JSON.stringify(value);
+  if (typeof value === "bigint") return `${value}n`;
+  return value !== null && typeof value === "object" ? "an object" : String(value);
+}
+/** What JavaScript may give for a whole number of a type of tact_c.h, least and largest. An uint32_t may have a sign: the bits
+ *  of a mask come as JavaScript computes with them, ~0 is -1. */
+function limitsOf(type) {
+  const [kind, bytes] = NUMBERS[type], values = 2n ** BigInt(8 * bytes), isUnsigned = kind.includes("Uint");
+  const limits = [isUnsigned && type !== "uint32_t" ? 0n : -values / 2n, (isUnsigned ? values : values / 2n) - 1n];
+  return bytes === 8 ? limits : limits.map(Number);
+}
+const LIMITS = Object.fromEntries(Object.keys(NUMBERS).filter((type) => !/float|double/.test(type)).map((type) => [type, limitsOf(type)]));
+/** The value of the parameter `what` as a whole number of `type`, a BigInt where that has 64 bits. The one place where they
+ *  are checked: WebAssembly would wrap and cut without a word. */
+export function whole(type, value, what) {
+  const isLong = NUMBERS[type][1] === 8, [least, largest] = LIMITS[type];
+  if (!(Number.isSafeInteger(value) || (isLong && typeof value === "bigint")) || value < least || value > largest) {
+    throw new TactError("invalid_argument", `${what} is ${shown(value)}, no whole number ${least} to ${largest}`);
+  }
+  return isLong ? BigInt(value) : value;
+}
+
 // `camelName`: as JavaScript names the field.
 for (const struct of Object.values(structs)) for (const field of struct.fields) field.camelName = camel(field.name);
 export const sizeOf = (name) => structs[name].size;
 /** The number of the name of a value of an enum. */
 export function numberOf(values, name) {
   const number = enums[values].indexOf(name);
-  if (number < 0) throw new TactError("invalid_argument", `${JSON.stringify(name)} is none of ${enums[values].filter(Boolean).join(", ")}`);
+  if (number < 0) throw new TactError("invalid_argument", `${shown(name)} is none of ${enums[values].filter(Boolean).join(", ")}`);
   return number;
 }
 export const nameOf = (values, number) => enums[values][number];
@@ -179,11 +203,10 @@ function readNumber(type, at) {
   const number = data()[`get${NUMBERS[type][0]}`](at, true);
   return type === "int64_t" ? Number(number) : number;
 }
-function writeNumber(type, at, value) {
+function writeNumber(type, at, value, what) {
   if (type === "bool") data().setUint8(at, value ? 1 : 0);
-  else if (type.endsWith("int64_t")) data()[`set${NUMBERS[type][0]}`](at, BigInt(value), true);
-  else if (type in NUMBERS) data()[`set${NUMBERS[type][0]}`](at, value, true);
-  else write(type, at, value);
+  else if (type in NUMBERS) data()[`set${NUMBERS[type][0]}`](at, type in LIMITS ? whole(type, value, what) : value, true);
+  else write(type, at, value, what);
 }
 const bytesOfType = (type) => (type === "bool" ? 1 : NUMBERS[type]?.[1] ?? sizeOf(type));
 
@@ -198,19 +221,20 @@ export function read(name, at) {
   return result;
 }
 
-/** Sets the fields of a struct that an object has. One that the struct has not is an error. */
-export function write(name, at, object) {
+/** Sets the fields of a struct that an object has, which errors name `what`. One that the struct has not is an error. */
+export function write(name, at, object, what = name) {
   const known = structs[name].fields;
+  if (object == null) throw new TactError("invalid_argument", `${what} is ${object}`);
   for (const [key, value] of Object.entries(object)) {
     const field = known.find((one) => one.camelName === key);
     if (!field) throw new TactError("invalid_argument", `${name} has no ${key}; it has ${known.map((one) => one.camelName).join(", ")}`);
     if (value === undefined) continue;
     const { type, offset, count, values } = field;
     if (!count) {
-      writeNumber(type, at + offset, values && typeof value === "string" ? numberOf(values, value) : value);
+      writeNumber(type, at + offset, values && typeof value === "string" ? numberOf(values, value) : value, key);
     } else {
-      if (value.length !== count) throw new TactError("wrong_size", `${key} has ${value.length} numbers, not ${count}`);
-      for (let i = 0; i < count; ++i) writeNumber(type, at + offset + i * bytesOfType(type), value[i]);
+      if (value?.length !== count) throw new TactError("wrong_size", `${key} has ${value?.length ?? "no"} numbers, not ${count}`);
+      for (let i = 0; i < count; ++i) writeNumber(type, at + offset + i * bytesOfType(type), value[i], key);
     }
   }
 }

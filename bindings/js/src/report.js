@@ -1,6 +1,6 @@
 // What a step and a motion found.
 import {
-  TactError, call, copyOf, doubleAt, handles, longAt, make, makeAll, nameOf, read, readAll, result, sizeOf, stringAt, viewOf,
+  TactError, call, copyOf, doubleAt, handles, longAt, make, makeAll, nameOf, read, readAll, result, shown, sizeOf, stringAt, viewOf,
   withMemory, wordAt,
 } from "./memory.js";
 import { ReachStencils, Stencils } from "./solver.js";
@@ -22,9 +22,10 @@ const IMPACTS = {
 };
 
 function filled(struct, name, shapes, handle, count, wanted = Object.keys(shapes)) {
+  if (!Array.isArray(wanted)) throw new TactError("invalid_argument", `the arrays that are wanted are ${shown(wanted)}, no list of names`);
   return withMemory((take) => {
     const places = Object.fromEntries(wanted.map((key) => {
-      if (!(key in shapes)) throw new TactError("invalid_argument", `there is no array ${key}; there are ${Object.keys(shapes).join(", ")}`);
+      if (!Object.hasOwn(shapes, key)) throw new TactError("invalid_argument", `there is no array ${shown(key)}; there are ${Object.keys(shapes).join(", ")}`);
       const [Kind, width] = shapes[key];
       return [key, take(count * width * Kind.BYTES_PER_ELEMENT)];
     }));

@@ -1,7 +1,7 @@
 // What every solver writes beside detect(): tact/solver.h.
 import { doubles, indicesOf, int32s, makeColumns, positionsOf, verticesOf } from "./arrays.js";
 import { drawing, makeColor } from "./drawing.js";
-import { call, copyOf, make, place, read, readAll, sizeOf, withMemory, wordAt } from "./memory.js";
+import { call, copyOf, make, place, read, readAll, sizeOf, whole, withMemory, wordAt } from "./memory.js";
 
 const SIZE = sizeOf("tact_stencil");
 
@@ -81,8 +81,8 @@ export class Stencils {
   /** A colour for each; two of one colour share no vertex below `moving`. */
   colors(moving) {
     return withMemory((take) => {
-      const at = take(4 * this.#count);
-      call("tact_stencil_colors", this.placed(take), this.#count, moving, at);
+      const at = take(4 * this.#count), below = whole("size_t", moving, "moving");
+      call("tact_stencil_colors", this.placed(take), this.#count, below, at);
       return copyOf(Int32Array, at, this.#count);
     });
   }

@@ -5,7 +5,7 @@ import { drawing, makeOptions } from "./drawing.js";
 import { MotionReport, Report } from "./report.js";
 import {
   TactError, call, callees, copyOf, doubleAt, failureOf, handles, library, longAt, make, makeAll, nameOf, numberOf, placeString, read, readAll,
-  result, sizeOf, stringAt, viewOf, withMemory, wordAt, write,
+  result, sizeOf, stringAt, viewOf, whole, withMemory, wordAt, write,
 } from "./memory.js";
 
 let callers = 0;
@@ -133,8 +133,10 @@ export class World {
     withMemory((take) => call("tact_world_set_poses", this.#handle, makeAll(take, "tact_pose_update",
       updates.map(({ rotation, ...rest }) => ({ ...rest, rotation: rotation.flat?.() ?? rotation }))), updates.length));
   }
-  setLayers(body, layer, mask) { this.#set("tact_world_set_layers", body, layer, mask); }
-  setGroup(body, group) { this.#set("tact_world_set_group", body, group); }
+  setLayers(body, layer, mask) {
+    this.#set("tact_world_set_layers", body, whole("uint32_t", layer, "layer"), whole("uint32_t", mask, "mask"));
+  }
+  setGroup(body, group) { this.#set("tact_world_set_group", body, whole("uint32_t", group, "group")); }
   setExcluded(a, b, excluded) {
     withMemory((take) => call("tact_world_set_excluded", this.#handle, this.#body(take, a), this.#body(take, b), excluded ? 1 : 0));
   }
@@ -151,7 +153,7 @@ export class World {
       const at = make(take, "tact_feature_settings");
       for (const [name, numbers] of Object.entries(settings)) {
         const Kind = FEATURE_SETTINGS[name];
-        if (!Kind) throw new TactError("invalid_argument", `there is no array ${name}; there are ${Object.keys(FEATURE_SETTINGS).join(", ")}`);
+        if (!Object.hasOwn(FEATURE_SETTINGS, name)) throw new TactError("invalid_argument", `there is no array ${name}; there are ${Object.keys(FEATURE_SETTINGS).join(", ")}`);
         if (numbers === undefined) continue;
         const { first, count } = (Kind === Float64Array ? float64s : uint32s)(take, numbers, name);
         write("tact_feature_settings", at, { [name]: first, [countOf(name)]: count });

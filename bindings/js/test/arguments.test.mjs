@@ -1,0 +1,74 @@
+// Arguments that are of no use are refused, and never wrapped, cut or read where they are no more.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { TETRAHEDRON, fails, movedBy, tact } from "./package.mjs";
+
+const { SharedArray, World } = tact;
+await tact.ready();
+
+const refused = (call, name, value) =>
+  fails("invalid_argument", call, new RegExp(`${name} is ${value}${typeof value === "bigint" ? "n" : ""}, no whole number`));
+
+test("whole numbers of 32 bits", () => {
+  const world = new World({ points: true }), body = world.addBody(TETRAHEDRON), other = world.addBody({ ...TETRAHEDRON, positions: movedBy(0.5) });
+  world.setLayers(body, 4, -1);
+  for (const layer of [2 ** 32, -(2 ** 31) - 1, 1.7, NaN, Infinity, null, true, undefined]) {
+    refused(() => world.setLayers(body, layer, 1), "layer", layer);
+    refused(() => world.setLayers(body, 1, layer), "mask", layer);
+    refused(() => world.setGroup(body, layer), "group", layer);
+    if (layer !== undefined) refused(() => world.addBody({ ...TETRAHEDRON, layer }), "layer", layer);
+  }
+  refused(() => world.setLayers(body, "x", 1), "layer", '"x"');
+  refused(() => world.setGroup(body, 3n), "group", "3n");
+  refused(() => world.setGroup(body, {}), "group", "an object");
+  assert.deepEqual([world.layerOf(body), world.maskOf(body), world.groupOf(body), world.bodyCount], [4, 2 ** 32 - 1, 0, 2]);
+  for (const value of [2 ** 32 + 1, 2 ** 31, 1.9]) {
+    refused(() => new World({ iterationLimit: value }), "iterationLimit", value);
+    refused(() => new World({ threads: value }), "threads", value);
+    refused(() => world.setSelfContactFilter(body, { rings: value }), "rings", value);
+  }
+  refused(() => world.addBody({ ...TETRAHEDRON, surface: 2 ** 32 }), "surface", 2 ** 32);
+  refused(() => world.setExcludedLabels({ a: body, labelA: 2 ** 32 + 1, b: other, labelB: 1 }, true), "labelA", 2 ** 32 + 1);
+  refused(() => world.castRay({ from: [0, 0, 0], to: [1, 1, 1], mask: 2 ** 32 }), "mask", 2 ** 32);
+  refused(() => world.nameOf({ ...body, index: 2 ** 32 }), "index", 2 ** 32);
+  const report = world.detect();
+  refused(() => report.joinedMinima({ layers: 2 ** 32 }), "layers", 2 ** 32);
+  for (const count of [2 ** 32, -1, 1.5]) {
+    refused(() => world.nearestBodies({ body, count }), "count", count);
+    refused(() => report.stencils([0, 4]).colors(count), "moving", count);
+  }
+  world.destroy();
+});
+
+test("whole numbers of 64 bits", () => {
+  const world = new World({ points: true });
+  for (const [given, is] of [[5, 5n], [2n ** 64n - 1n, 2n ** 64n - 1n], [Number.MAX_SAFE_INTEGER, 2n ** 53n - 1n]]) {
+    const body = world.addBody({ ...TETRAHEDRON, key: given, externalId: given });
+    assert.deepEqual([world.keyOf(body), world.externalIdOf(body)], [is, is]);
+    world.removeBody(body);
+  }
+  for (const value of [2n ** 64n, -1n, -1, 2 ** 53, 1.5, NaN, null]) {
+    refused(() => world.addBody({ ...TETRAHEDRON, key: value }), "key", value);
+    refused(() => world.addBody({ ...TETRAHEDRON, externalId: value }), "externalId", value);
+    refused(() => world.addPlane({ key: value }), "key", value);
+    refused(() => world.detect().sumContacts([{ id: value, impulse: [0, 0, 1] }]), "id", value);
+  }
+  refused(() => world.addBody({ ...TETRAHEDRON, externalId: "x" }), "externalId", '"x"');
+  assert.equal(world.bodyCount, 0);
+  world.destroy();
+});
+
+test("what is no object, and what every object has", () => {
+  const world = new World({ points: true }), body = world.addBody(TETRAHEDRON), report = world.detect();
+  for (const name of ["toString", "constructor"]) {
+    fails("invalid_argument", () => report.points([name]), /gaps/);
+    fails("invalid_argument", () => world.setFeatureSettings(body, { [name]: [1] }), /margins/);
+  }
+  fails("invalid_argument", () => report.points("gaps"), /names/);
+  fails("invalid_argument", () => report.points([null]), /null/);
+  fails("invalid_argument", () => report.findContact(body, null), /null/);
+  fails("invalid_argument", () => world.distance({ a: body, b: null }), /b is null/);
+  fails("wrong_size", () => world.castRay({ from: null, to: [1, 1, 1] }), /from has no numbers/);
+  fails("invalid_argument", () => world.setMotion(body, 1n), /1n is none of/);
+  world.destroy();
+});
