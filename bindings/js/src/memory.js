@@ -46,12 +46,13 @@ const system = {
 };
 const color = (at) => [0, 4, 8, 12].map((byte) => data().getFloat32(at + byte, true));
 const point = (at) => [0, 8, 16].map((byte) => data().getFloat64(at + byte, true));
-// No exception of JavaScript goes through the frames of C++: the first is kept until the call returns.
+// No exception of JavaScript goes through the frames of C++: the first is kept until the call returns. WebAssembly gives
+// addresses with a sign.
 let thrown;
 function kept(callee) {
   return (...values) => {
     try {
-      if (!thrown) callee(...values);
+      if (!thrown) callee(...values.map((value) => value >>> 0));
     } catch (error) {
       thrown = { error };
     }
@@ -100,13 +101,18 @@ export function stringAt(at) {
   return new TextDecoder().decode(bytes.slice(0, end));
 }
 
+/** Memory of tact. Its addresses have no sign; WebAssembly gives and takes 32 bits, and would cut a larger size. */
+function allocated(bytes, what) {
+  const at = bytes < 2 ** 32 ? library().malloc(Math.max(bytes, 1)) >>> 0 : 0;
+  if (at === 0) throw new TactError("out_of_memory", `${what} not to be had`);
+  return at;
+}
 /** Memory of one call: what take() gave is freed when the call ends. */
 export function withMemory(use) {
   const taken = [];
   try {
     return use((bytes) => {
-      const at = library().malloc(Math.max(bytes, 1));
-      if (at === 0) throw new TactError("out_of_memory", `${bytes} bytes are not to be had`);
+      const at = allocated(bytes, `${bytes} bytes are`);
       taken.push(at);
       return at;
     });
@@ -139,8 +145,7 @@ export class SharedArray {
   #kind; #at; #length; #array;
   constructor(Kind, length) {
     if (!Number.isSafeInteger(length) || length < 0) throw new TactError("invalid_argument", `the length of an array is ${length}`);
-    this.#at = library().malloc(Math.max(length * Kind.BYTES_PER_ELEMENT, 1));
-    if (this.#at === 0) throw new TactError("out_of_memory", `an array of ${length} numbers is not to be had`);
+    this.#at = allocated(length * Kind.BYTES_PER_ELEMENT, `an array of ${length} numbers is`);
     this.#kind = Kind;
     this.#length = length;
     this.array.fill(0);

@@ -58,6 +58,11 @@ test("whole numbers of 64 bits", () => {
   world.destroy();
 });
 
+test("arrays that are larger than any memory", () => {
+  for (const length of [2 ** 29, 2 ** 29 + 1, 2 ** 31, 2 ** 40]) fails("out_of_memory", () => new SharedArray(Float64Array, length), /numbers/);
+  for (const length of [-1, 1.5, NaN, "3", undefined]) fails("invalid_argument", () => new SharedArray(Float64Array, length), /length/);
+});
+
 test("what is no object, and what every object has", () => {
   const world = new World({ points: true }), body = world.addBody(TETRAHEDRON), report = world.detect();
   for (const name of ["toString", "constructor"]) {
