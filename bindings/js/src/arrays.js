@@ -1,5 +1,5 @@
 // Arguments of arrays: vertices, facets, edges.
-import { SharedArray, TactError, make, numberOf, place } from "./memory.js";
+import { SharedArray, TactError, isInside, make, numberOf, place, viewOf } from "./memory.js";
 
 const KINDS = new Map([[Float32Array, "float32"], [Float64Array, "float64"], [Int32Array, "int32"], [Uint32Array, "uint32"], [Uint16Array, "uint16"]]);
 
@@ -13,9 +13,23 @@ function isDetached(array) {
   }
 }
 
+/** Numbers in tact's memory by their place, which stays when that memory grows and moves. */
+class Held {
+  #Kind; #at; #length;
+  constructor(numbers) {
+    this.#Kind = numbers.constructor;
+    this.#at = numbers.byteOffset;
+    this.#length = numbers.length;
+  }
+  get array() { return viewOf(this.#Kind, this.#at, this.#length); }
+}
+/** An argument as it is valid during all of a call; to be taken before the call allocates anything. */
+export const held = (numbers) => (isInside(numbers) ? new Held(numbers) : numbers);
+export const allHeld = (object) => Object.fromEntries(Object.entries(object).map(([name, numbers]) => [name, held(numbers)]));
+
 /** Numbers as a typed array: as they are where tact takes their kind, others copied into `Kind`. */
 export function typed(numbers, Kind, what) {
-  if (numbers instanceof SharedArray) numbers = numbers.array;
+  if (numbers instanceof SharedArray || numbers instanceof Held) numbers = numbers.array;
   if (ArrayBuffer.isView(numbers) && KINDS.has(numbers.constructor)) {
     if (isDetached(numbers)) throw new TactError("wrong_order", `${what}: the memory of tact has grown; take the array of the SharedArray anew`);
     return numbers;

@@ -125,9 +125,17 @@ export function withMemory(use) {
 export const viewOf = (Kind, at, length) => new Kind(memory(), at, length);
 export const copyOf = (Kind, at, length) => (length === 0 ? new Kind(0) : viewOf(Kind, at, length).slice());
 
+/** Whether numbers lie in tact's memory, which moves when it grows. */
+export const isInside = (numbers) => ArrayBuffer.isView(numbers) && numbers.buffer === memory();
+/** The object with copies of those of its numbers that lie there: its other fields may make it grow. */
+export function unmoved(object) {
+  if (object == null || !Object.values(object).some(isInside)) return object;
+  return Object.fromEntries(Object.entries(object).map(([key, value]) => [key, isInside(value) ? value.slice() : value]));
+}
+
 /** Copies numbers into memory of the call, unless they lie in tact's memory already. */
 export function place(take, numbers) {
-  if (numbers.buffer === memory()) return numbers.byteOffset;
+  if (isInside(numbers)) return numbers.byteOffset;
   const at = take(numbers.byteLength);
   viewOf(numbers.constructor, at, numbers.length).set(numbers);
   return at;
@@ -246,15 +254,16 @@ export function write(name, at, object, what = name) {
 
 /** A struct in memory of the call: its default where the header has one, else zeros, then the fields of `object`. */
 export function make(take, name, object = {}) {
+  const fields = unmoved(object);
   const at = take(sizeOf(name)), made = library()[`default_${name}`]?.(), room = viewOf(Uint8Array, at, sizeOf(name));
   made ? room.set(viewOf(Uint8Array, made, sizeOf(name))) : room.fill(0);
-  write(name, at, object);
+  write(name, at, fields);
   return at;
 }
 /** Many of a struct, one after the other. */
 export function makeAll(take, name, objects) {
-  const at = take(sizeOf(name) * objects.length);
-  objects.forEach((object, i) => {
+  const all = objects.map(unmoved), at = take(sizeOf(name) * all.length);
+  all.forEach((object, i) => {
     const room = viewOf(Uint8Array, at + i * sizeOf(name), sizeOf(name)), made = library()[`default_${name}`]?.();
     made ? room.set(viewOf(Uint8Array, made, sizeOf(name))) : room.fill(0);
     write(name, at + i * sizeOf(name), object);

@@ -1,5 +1,5 @@
 // What every solver writes beside detect(): tact/solver.h.
-import { doubles, indicesOf, int32s, makeColumns, positionsOf, verticesOf } from "./arrays.js";
+import { allHeld, doubles, held, indicesOf, int32s, makeColumns, positionsOf, verticesOf } from "./arrays.js";
 import { drawing, makeColor } from "./drawing.js";
 import { call, copyOf, make, place, read, readAll, sizeOf, whole, withMemory, wordAt } from "./memory.js";
 
@@ -37,9 +37,10 @@ export class Stencils {
     });
   }
   static ofImpacts(handle, firstRows, begin, end) {
+    const way = allHeld({ firstRows, begin, end });
     return withMemory((take) => {
-      const rows = int32s(take, firstRows, "firstRows"), from = verticesOf(take, begin, "begin");
-      const to = doubles(take, end, 3 * from.count, "end");
+      const rows = int32s(take, way.firstRows, "firstRows"), from = verticesOf(take, way.begin, "begin");
+      const to = doubles(take, way.end, 3 * from.count, "end");
       return Stencils.#written(take, (...room) =>
         call("tact_motion_stencils", handle, rows.first, rows.count, from.first, to, from.count, ...room));
     });
@@ -58,8 +59,9 @@ export class Stencils {
   }
   gaps(positions, { hessians = false } = {}) { return this.#terms("tact_stencil_gaps", positions, "positions", hessians); }
   barriers(positions, reach, { rest, hessians = false } = {}) {
+    const at = allHeld({ positions, rest });
     return withMemory((take) => {
-      const { first, count } = verticesOf(take, positions, "positions"), still = restOf(take, rest, count);
+      const { first, count } = verticesOf(take, at.positions, "positions"), still = restOf(take, at.rest, count);
       return termsOf(take, this.#count, hessians,
         (terms) => call("tact_stencil_barriers", this.placed(take), this.#count, first, still, count, reach, terms));
     });
@@ -68,7 +70,8 @@ export class Stencils {
     return this.#terms("tact_stencil_penalties", positions, "positions", hessians, () => [reach]);
   }
   friction(moved, limits, smoothing, { hessians = false } = {}) {
-    return this.#terms("tact_stencil_friction", moved, "moved", hessians, (take) => [doubles(take, limits, this.#count, "limits"), smoothing]);
+    const most = held(limits);
+    return this.#terms("tact_stencil_friction", moved, "moved", hessians, (take) => [doubles(take, most, this.#count, "limits"), smoothing]);
   }
   /** How fast the gap of each grows at velocities of the vertices. */
   gapRates(velocities) {
@@ -112,8 +115,9 @@ export class ReachStencils {
   }
   get count() { return this.whole.count; }
   barriers(positions, reach, { rest, hessians = false } = {}) {
+    const at = allHeld({ positions, rest });
     return withMemory((take) => {
-      const { first, count } = verticesOf(take, positions, "positions"), still = restOf(take, rest, count);
+      const { first, count } = verticesOf(take, at.positions, "positions"), still = restOf(take, at.rest, count);
       const pairs = [this.whole.placed(take), this.closest.placed(take), this.count];
       return termsOf(take, this.count, hessians, (terms) => call("tact_stencil_reach_barriers", ...pairs, first, still, count, reach, terms));
     });
@@ -121,8 +125,8 @@ export class ReachStencils {
 }
 
 const matrix = (name, numbers, length, what) => withMemory((take) => {
-  const at = take(72);
-  call(name, doubles(take, numbers, length, what), at);
+  const given = doubles(take, numbers, length, what), at = take(72);
+  call(name, given, at);
   return copyOf(Float64Array, at, 9);
 });
 /** The rotation nearest to a matrix that is orthonormal to 1e-5, row by row. */
@@ -132,12 +136,13 @@ export const rotationOfQuaternion = (given) => matrix("tact_rotation_of_quaterni
 
 /** A mesh without the vertices that repeat an earlier position. */
 export function weld(positions, facets) {
+  const mesh = allHeld({ positions, facets });
   return withMemory((take) => {
-    const given = positionsOf(take, positions), corners = indicesOf(take, facets, 3, "facets");
+    const given = positionsOf(take, mesh.positions), corners = indicesOf(take, mesh.facets, 3, "facets");
     const room = { positions: take(24 * given.count), facets: take(12 * corners.count), vertexOf: take(4 * given.count) };
-    const mesh = make(take, "tact_welded_mesh", room);
-    call("tact_weld", makeColumns(take, given), makeColumns(take, corners), mesh);
-    const { vertices, mergedVertices, collapsedFacets } = read("tact_welded_mesh", mesh);
+    const welded = make(take, "tact_welded_mesh", room);
+    call("tact_weld", makeColumns(take, given), makeColumns(take, corners), welded);
+    const { vertices, mergedVertices, collapsedFacets } = read("tact_welded_mesh", welded);
     return {
       positions: copyOf(Float64Array, room.positions, 3 * vertices), facets: copyOf(Int32Array, room.facets, 3 * corners.count),
       vertexOf: copyOf(Int32Array, room.vertexOf, given.count), mergedVertices, collapsedFacets,

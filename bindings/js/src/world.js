@@ -1,11 +1,11 @@
 // Worlds: bodies, steps, queries.
-import { doubles, float64s, indicesOf, int32s, makeColumns, positionsOf, uint32s } from "./arrays.js";
+import { allHeld, doubles, float64s, held, indicesOf, int32s, makeColumns, positionsOf, uint32s } from "./arrays.js";
 import { Bodies } from "./bodies.js";
 import { drawing, makeOptions } from "./drawing.js";
 import { MotionReport, Report } from "./report.js";
 import {
-  TactError, call, callees, copyOf, doubleAt, failureOf, handles, library, longAt, make, makeAll, nameOf, numberOf, placeString, read, readAll,
-  result, sizeOf, stringAt, viewOf, whole, withMemory, wordAt, write,
+  TactError, call, callees, copyOf, doubleAt, failureOf, handles, isInside, library, longAt, make, makeAll, nameOf, numberOf, placeString, read, readAll,
+  result, sizeOf, stringAt, unmoved, viewOf, whole, withMemory, wordAt, write,
 } from "./memory.js";
 
 let callers = 0;
@@ -95,12 +95,13 @@ export class World {
   }
 
   addBody({ positions = [], facets, edges, points, name, key, restOffset, ...rest }) {
+    const mesh = allHeld({ positions, facets, edges, points });
     return withMemory((take) => this.#added(take, "tact_world_add_body", make(take, "tact_body_definition",
-      { ...rest, ...meshOf(take, { positions, facets, edges, points }), ...given(take, { name, key, restOffset }) })));
+      { ...rest, ...meshOf(take, mesh), ...given(take, { name, key, restOffset }) })));
   }
   addPlane({ name, key, restOffset, ...rest }) {
     return withMemory((take) => this.#added(take, "tact_world_add_plane", make(take, "tact_plane_definition",
-      { ...rest, ...given(take, { name, key, restOffset }) })));
+      { ...unmoved(rest), ...given(take, { name, key, restOffset }) })));
   }
   removeBody(body) { this.#set("tact_world_remove_body", body); }
 
@@ -108,26 +109,30 @@ export class World {
     withMemory((take) => call(name, this.#handle, this.#body(take, body), ...values));
   }
   setPositions(body, positions) {
-    withMemory((take) => call("tact_world_set_positions", this.#handle, this.#body(take, body), makeColumns(take, positionsOf(take, positions))));
+    const all = held(positions);
+    withMemory((take) => call("tact_world_set_positions", this.#handle, this.#body(take, body), makeColumns(take, positionsOf(take, all))));
   }
   setPositionsOfMany(updates) {
+    const given = updates.map(({ body, positions }) => ({ body, positions: held(positions) }));
     withMemory((take) => {
-      const all = updates.map(({ body, positions }) => ({ body, positions: positionsOf(take, positions) }));
+      const all = given.map(({ body, positions }) => ({ body, positions: positionsOf(take, positions) }));
       call("tact_world_set_positions_of_many", this.#handle, makeAll(take, "tact_positions_update", all), all.length);
     });
   }
   setFacets(body, positions, facets, vertexMap, { edges, points, facetMap = [] } = {}) {
+    const mesh = allHeld({ positions, facets, edges, points }), maps = allHeld({ vertexMap, facetMap });
     withMemory((take) => {
-      const ofVertices = int32s(take, vertexMap, "vertexMap"), ofFacets = int32s(take, facetMap, "facetMap");
+      const ofVertices = int32s(take, maps.vertexMap, "vertexMap"), ofFacets = int32s(take, maps.facetMap, "facetMap");
       call("tact_world_set_facets_by", this.#handle, this.#body(take, body), make(take, "tact_mesh_update", {
-        ...meshOf(take, { positions, facets, edges, points }), vertexMap: ofVertices.first, vertexMapCount: ofVertices.count,
+        ...meshOf(take, mesh), vertexMap: ofVertices.first, vertexMapCount: ofVertices.count,
         facetMap: ofFacets.first, facetMapCount: ofFacets.count,
       }));
     });
   }
   setPose(body, rotation, translation) {
+    const pose = allHeld({ rotation, translation });
     withMemory((take) => call("tact_world_set_pose", this.#handle, this.#body(take, body),
-      doubles(take, rotation, 9, "rotation"), doubles(take, translation, 3, "translation")));
+      doubles(take, pose.rotation, 9, "rotation"), doubles(take, pose.translation, 3, "translation")));
   }
   setPoses(updates) {
     withMemory((take) => call("tact_world_set_poses", this.#handle, makeAll(take, "tact_pose_update",
@@ -149,9 +154,10 @@ export class World {
   }
   /** Arrays that are left out set nothing. */
   setFeatureSettings(body, settings) {
+    const given = Object.entries(allHeld(settings));
     withMemory((take) => {
       const at = make(take, "tact_feature_settings");
-      for (const [name, numbers] of Object.entries(settings)) {
+      for (const [name, numbers] of given) {
         const Kind = FEATURE_SETTINGS[name];
         if (!Object.hasOwn(FEATURE_SETTINGS, name)) throw new TactError("invalid_argument", `there is no array ${name}; there are ${Object.keys(FEATURE_SETTINGS).join(", ")}`);
         if (numbers === undefined) continue;
@@ -163,8 +169,9 @@ export class World {
   }
   setSelfContact(body, wanted) { this.#set("tact_world_set_self_contact", body, wanted ? 1 : 0); }
   setSelfContactFilter(body, { restPositions, ...filter } = {}) {
+    const rest = held(restPositions);
     withMemory((take) => call("tact_world_set_self_contact_filter", this.#handle, this.#body(take, body), make(take, "tact_self_contact_filter",
-      { ...filter, restPositions: restPositions && positionsOf(take, restPositions) })));
+      { ...filter, restPositions: rest && positionsOf(take, rest) })));
   }
   setExcludedLabels(labels, excluded) {
     withMemory((take) => call("tact_world_set_excluded_labels", this.#handle, make(take, "tact_label_pair", labels), excluded ? 1 : 0));
@@ -204,10 +211,11 @@ export class World {
     });
   }
   restore(bytes) {
+    const saved = isInside(bytes) ? bytes.slice() : bytes;
     withMemory((take) => {
-      const at = take(bytes.length);
-      viewOf(Uint8Array, at, bytes.length).set(bytes);
-      call("tact_world_restore", this.#handle, at, bytes.length);
+      const at = take(saved.length);
+      viewOf(Uint8Array, at, saved.length).set(saved);
+      call("tact_world_restore", this.#handle, at, saved.length);
     });
     this.#steps.detect += 1;
     this.#steps.motion += 1;
@@ -326,8 +334,8 @@ export class World {
   }
   castRays(rays, wanted = "first") {
     return withMemory((take) => {
-      const hits = take(rays.length * sizeOf("tact_ray_hit"));
-      call("tact_world_cast_rays", this.#handle, makeAll(take, "tact_ray", rays), rays.length, numberOf("tact_ray_hits", wanted), hits);
+      const given = makeAll(take, "tact_ray", rays), hits = take(rays.length * sizeOf("tact_ray_hit"));
+      call("tact_world_cast_rays", this.#handle, given, rays.length, numberOf("tact_ray_hits", wanted), hits);
       return readAll("tact_ray_hit", hits, rays.length).map((hit) => hitOrNone(this, hit));
     });
   }
@@ -338,8 +346,8 @@ export class World {
   /** An answer to each query. */
   #answers(name, query, answer, queries) {
     return withMemory((take) => {
-      const answers = take(queries.length * sizeOf(answer));
-      call(name, this.#handle, makeAll(take, query, queries), queries.length, answers);
+      const given = makeAll(take, query, queries), answers = take(queries.length * sizeOf(answer));
+      call(name, this.#handle, given, queries.length, answers);
       return readAll(answer, answers, queries.length);
     });
   }

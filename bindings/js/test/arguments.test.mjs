@@ -63,6 +63,36 @@ test("arrays that are larger than any memory", () => {
   for (const length of [-1, 1.5, NaN, "3", undefined]) fails("invalid_argument", () => new SharedArray(Float64Array, length), /length/);
 });
 
+test("an array of tact's memory is read though that grows in the same call", () => {
+  const shared = new SharedArray(Int32Array, 12), place = new SharedArray(Float64Array, 12);
+  shared.array.set(TETRAHEDRON.facets);
+  place.array.set(movedBy(1));
+  /** Positions for which there is no room yet: more than all of the memory. */
+  const more = () => {
+    const positions = new Float64Array(3 * Math.ceil(shared.array.buffer.byteLength / 24));
+    positions.set(movedBy(0));
+    return positions;
+  };
+  const grows = (call) => {
+    const before = shared.array.buffer, result = call();
+    assert.notEqual(shared.array.buffer, before);
+    return result;
+  };
+  const world = new World();
+  const plane = grows(() => world.addPlane({ normal: place.array.subarray(9, 12).fill(0).fill(1, 2), name: "x".repeat(shared.array.buffer.byteLength) }));
+  assert.deepEqual(world.planeOf(plane).normal, [0, 0, 1]);
+  place.array.set(movedBy(1));
+  const body = grows(() => world.addBody({ positions: more(), facets: shared.array }));
+  assert.deepEqual(Array.from(world.facetsOf(body)), TETRAHEDRON.facets);
+  world.removeBody(body);
+  const [large, small] = [{ ...TETRAHEDRON, positions: movedBy(3) }, TETRAHEDRON].map((one) => world.addBody(one));
+  fails("wrong_size", () => grows(() => world.setPositionsOfMany([{ body: large, positions: more() }, { body: small, positions: place.array }])), /vertices/);
+  const positions = more();
+  grows(() => world.setFacets(small, positions, shared.array, new Int32Array(positions.length / 3).fill(-1)));
+  world.destroy();
+  for (const one of [shared, place]) one.free();
+});
+
 test("what is no object, and what every object has", () => {
   const world = new World({ points: true }), body = world.addBody(TETRAHEDRON), report = world.detect();
   for (const name of ["toString", "constructor"]) {
