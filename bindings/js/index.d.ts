@@ -70,7 +70,8 @@ export interface Settings {
   /** Every pair of features nearer than the sum of the margins, for barriers. */
   withinReach?: boolean;
   trace?: boolean;
-  /** Called for each limit that a step reached, and for each body that was added as closed and is not; must not call the world. */
+  /** Called for each limit that a step reached, and for each body that was added as closed and is not; must not call the world.
+   *  What it throws comes out of the call: detect() has made its step then, and addBody() adds no body. */
   onMessage?: (message: Message) => void;
   /** WebAssembly has one thread. */
   threads?: number;

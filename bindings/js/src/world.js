@@ -88,9 +88,15 @@ export class World {
     return this.#bodies.latest(index) ?? this.bodies().find((body) => body.index === index) ?? null;
   }
   #body(take, body) { return make(take, "tact_body", body ?? {}); }  // of no body tact says what is wrong
+  /** C has added a body though its message threw, as exceptions do not pass it: the body goes again, as in C++. */
   #added(take, name, at) {
-    const body = take(sizeOf("tact_body"));
-    call(name, this.#handle, at, body);
+    const body = make(take, "tact_body");
+    try {
+      call(name, this.#handle, at, body);
+    } catch (error) {
+      if (read("tact_body", body).generation !== 0) failureOf("tact_world_remove_body", this.#handle, body);
+      throw error;
+    }
     return this.bodyOf(read("tact_body", body));
   }
 

@@ -178,7 +178,10 @@ test("messages, and exceptions of who takes them", () => {
   assert.match(told[0].text, /lid/);
   world.setSettings({ onMessage: () => { throw new RangeError("mine"); } });
   assert.throws(() => world.addBody({ ...SHEET, surface: "closed" }), RangeError);
-  assert.equal(world.detect().contacts.length, 1);
+  assert.deepEqual(world.bodies(), [body], "nothing was added");
+  const next = world.addBody({ ...TETRAHEDRON, positions: movedBy(50) });
+  assert.deepEqual(world.bodies(), [body, next]);
+  assert.equal(world.detect().contacts.length, 0);
   world.destroy();
 });
 
