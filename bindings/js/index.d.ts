@@ -13,6 +13,7 @@ export class TactError extends Error {
   constructor(code: string, message: string);
 }
 
+/** Numbers one after the other, or in rows of one length. */
 type Numbers = ArrayLike<number> | number[][];
 /** Three numbers a vertex. Float64Array and Float32Array in tact's memory (SharedArray) are read where they are. */
 export type Positions = Float64Array | Float32Array | SharedArray<Float64Array> | SharedArray<Float32Array> | Numbers;
@@ -89,7 +90,7 @@ export interface BodyDefinition {
   motion?: Motion;
   layer?: number;
   mask?: number;
-  /** For messages; by default "body <index>". */
+  /** For messages, without a zero character; by default "body <index>". */
   name?: string;
   /** The program's own number, 0 to 2^64 - 1; as a number at most Number.MAX_SAFE_INTEGER. */
   externalId?: number | bigint;
@@ -567,7 +568,8 @@ interface AnyReport {
   /** Copies the report, which then stays. The memory of `kept` is used again, and what it was is stale. */
   keep(kept?: KeptReport | null): KeptReport;
 }
-/** What a step found. After the world's next step its functions throw "stale_report"; arrays stay yours. */
+/** What a step found. After the world's next step its functions throw "stale_report", after destroy() "invalid_handle"; arrays
+ *  stay yours. A step that is refused, as one within a message or a drawer is, leaves it as it was. */
 export interface Report extends AnyReport {
   /** The labels of what points() names, in its order. */
   pointLabels(): PointLabelArrays;

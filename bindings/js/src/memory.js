@@ -140,7 +140,8 @@ export function place(take, numbers) {
   viewOf(numbers.constructor, at, numbers.length).set(numbers);
   return at;
 }
-export function placeString(take, text) {
+export function placeString(take, text, what) {
+  if (text.includes("\0")) throw new TactError("invalid_argument", `${what} has a zero character, where C would end it`);
   const bytes = new TextEncoder().encode(text), at = take(bytes.length + 1), room = viewOf(Uint8Array, at, bytes.length + 1);
   room.set(bytes);
   room[bytes.length] = 0;

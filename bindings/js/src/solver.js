@@ -13,7 +13,7 @@ function termsOf(take, count, hessians, fill) {
   return hessians ? { ...terms, hessians: copyOf(Float64Array, room.hessians, 144 * count) } : terms;
 }
 /** Positions at rest as the functions of barriers take them; null for none. */
-const restOf = (take, rest, vertices) => (rest ? doubles(take, rest, 3 * vertices, "rest") : 0);
+const restOf = (take, rest, vertices) => (rest ? doubles(take, rest, 3 * vertices, "rest", 3) : 0);
 
 /** Stencils by rows of a solver's system, in memory of JavaScript. */
 export class Stencils {
@@ -40,7 +40,7 @@ export class Stencils {
     const way = allHeld({ firstRows, begin, end });
     return withMemory((take) => {
       const rows = int32s(take, way.firstRows, "firstRows"), from = verticesOf(take, way.begin, "begin");
-      const to = doubles(take, way.end, 3 * from.count, "end");
+      const to = doubles(take, way.end, 3 * from.count, "end", 3);
       return Stencils.#written(take, (...room) =>
         call("tact_motion_stencils", handle, rows.first, rows.count, from.first, to, from.count, ...room));
     });

@@ -1,5 +1,5 @@
 // Worlds: bodies, steps, queries.
-import { allHeld, doubles, float64s, held, indicesOf, int32s, makeColumns, positionsOf, uint32s } from "./arrays.js";
+import { allHeld, doubles, float64s, held, indicesOf, int32s, makeColumns, positionsOf, typed, uint32s } from "./arrays.js";
 import { Bodies } from "./bodies.js";
 import { drawing, makeOptions } from "./drawing.js";
 import { MotionReport, Report } from "./report.js";
@@ -25,7 +25,7 @@ function meshOf(take, { positions, facets, edges, points }) {
 }
 /** The fields of a definition that may be left out, and those that say whether they are. */
 const given = (take, { name, key, restOffset }) => ({
-  name: name === undefined ? undefined : placeString(take, String(name)),
+  name: name === undefined ? undefined : placeString(take, String(name), "name"),
   ...(key !== undefined && { hasKey: true, key }), ...(restOffset != null && { hasRestOffset: true, restOffset }),
 });
 /** The arrays of tact_feature_settings: of each the kind of its numbers, and what they are of. */
@@ -142,7 +142,7 @@ export class World {
   }
   setPoses(updates) {
     withMemory((take) => call("tact_world_set_poses", this.#handle, makeAll(take, "tact_pose_update",
-      updates.map(({ rotation, ...rest }) => ({ ...rest, rotation: rotation.flat?.() ?? rotation }))), updates.length));
+      updates.map(({ rotation, ...rest }) => ({ ...rest, rotation: typed(rotation, Float64Array, "rotation") }))), updates.length));
   }
   setLayers(body, layer, mask) {
     this.#set("tact_world_set_layers", body, whole("uint32_t", layer, "layer"), whole("uint32_t", mask, "mask"));

@@ -93,6 +93,32 @@ test("an array of tact's memory is read though that grows in the same call", () 
   for (const one of [shared, place]) one.free();
 });
 
+test("rows of other lengths", () => {
+  const world = new World(), ragged = [[0, 0], [1, 0, 0, 1], [0, 1, 0]], pairs = [[0, 0], [1, 0], [0, 1]], body = world.addBody({ ...TETRAHEDRON, motion: "rigid" });
+  const isRagged = (what, call) => fails("wrong_size", call, new RegExp(`${what}: row \\d has (\\d|no) numbers, not \\d`));
+  for (const positions of [ragged, pairs, [[0, 0, 0], [1, 0, 0], 5], [[0, 0, 0], null, [1, 0, 0]], Object.assign(Array(2), [[0, 0, 0]])]) {
+    isRagged("positions", () => world.addBody({ positions, facets: [0, 1, 2] }));
+    isRagged("positions", () => tact.weld(positions, [0, 1, 2]));
+    isRagged("positions", () => world.detect().stencils([0]).gaps(positions));
+  }
+  isRagged("facets", () => world.addBody({ ...TETRAHEDRON, facets: [[0, 1], [2, 0, 2, 1]] }));
+  isRagged("edges", () => world.addBody({ ...TETRAHEDRON, edges: [[0, 1, 2], [3]] }));
+  const rotation = [[1, 0], [0, 0, 1, 0], [0, 0, 1]];
+  isRagged("rotation", () => world.setPose(body, rotation, [0, 0, 0]));
+  isRagged("rotation", () => world.setPoses([{ body, rotation, translation: [0, 0, 0] }]));
+  fails("invalid_argument", () => world.setPoses([{ body, translation: [0, 0, 0] }]), /rotation/);
+  assert.equal(world.bodyCount, 1);
+  world.destroy();
+});
+
+test("a name that C would cut", () => {
+  const world = new World();
+  fails("invalid_argument", () => world.addBody({ ...TETRAHEDRON, name: "a\0b" }), /name has a zero/);
+  fails("invalid_argument", () => world.addPlane({ name: "\0" }), /name has a zero/);
+  assert.equal(world.bodyCount, 0);
+  world.destroy();
+});
+
 test("what is no object, and what every object has", () => {
   const world = new World({ points: true }), body = world.addBody(TETRAHEDRON), report = world.detect();
   for (const name of ["toString", "constructor"]) {
