@@ -217,6 +217,7 @@ export class World {
     });
   }
   restore(bytes) {
+    if (!Number.isSafeInteger(bytes?.length)) throw new TactError("invalid_argument", "a state is no array of bytes");
     const saved = isInside(bytes) ? bytes.slice() : bytes;
     withMemory((take) => {
       const at = take(saved.length);

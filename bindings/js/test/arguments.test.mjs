@@ -127,6 +127,7 @@ test("what is no object, and what every object has", () => {
   }
   fails("invalid_argument", () => report.points("gaps"), /names/);
   fails("invalid_argument", () => report.points([null]), /null/);
+  for (const bytes of [null, undefined, 5, world.save().buffer]) fails("invalid_argument", () => world.restore(bytes), /bytes/);
   fails("invalid_argument", () => report.findContact(body, null), /null/);
   fails("invalid_argument", () => world.distance({ a: body, b: null }), /b is null/);
   fails("wrong_size", () => world.castRay({ from: null, to: [1, 1, 1] }), /from has no numbers/);
