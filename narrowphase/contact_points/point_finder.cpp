@@ -6,6 +6,7 @@
 
 #include "engine/base/lowest_bits.h"
 #include "narrowphase/contact_points/own_inside.h"
+#include "narrowphase/contact_points/touching_normal.h"
 #include "narrowphase/crossing/crossing_points.h"
 #include "narrowphase/distance/edge_edge.h"
 #include "narrowphase/distance/facet_border.h"
@@ -48,11 +49,6 @@ std::uint64_t settled_facets(const OpenFeatures& open, std::uint64_t some) {
       settled |= some & -some;
   }
   return settled;
-}
-
-Vec3 facet_normal(const ScaledMesh& m, int facet) {
-  const Vec3 normal = m.normal(facet);
-  return normal == Vec3{} ? Vec3{0.0, 0.0, 1.0} : normalized(normal);
 }
 
 }  // namespace
@@ -141,8 +137,8 @@ void PointFinder::look_at_border(const VertexAndFacet& one) {
 
 void PointFinder::add_vertex_point(const VertexAndFacet& pair, std::span<const int> feature, const Nearest& nearest) {
   const auto& [m, surface, kind, vertex, facet, v, corner] = pair;
-  const Vec3 way = nearest.normal == Vec3{} ? -facet_normal(surface, facet) : nearest.normal;
   const bool of_a = kind == FeaturePair::vertex_facet;
+  const Vec3 way = nearest.normal == Vec3{} ? way_where_they_touch(surface, feature, of_a) : nearest.normal;
   const std::span<const int> own(&vertex, 1);
   if (nearest.distance > 0.0 && runs_inside(of_a ? own : feature, of_a ? feature : own, of_a ? way : -way)) return;
   if (same_) {
@@ -154,6 +150,14 @@ void PointFinder::add_vertex_point(const VertexAndFacet& pair, std::span<const i
   std::ranges::copy(feature, place.vertices.begin());
   std::ranges::copy(nearest.weight, place.weight.begin());
   add(point_of_vertex(kind, m.mesh, vertex, surface.mesh, place, way, nearest.distance / m.scale));
+}
+
+// Towards the inside of a surface that a vertex of a, or of b, touches.
+Vec3 PointFinder::way_where_they_touch(const ScaledMesh& surface, std::span<const int> feature, bool of_a) const {
+  const Vec3 along = rules_.crossing != nullptr ? rules_.crossing->direction : rules_.touching;
+  const Turned turned = rules_.crossing != nullptr ? Turned::as_it_is : Turned::either_way;
+  const Vec3 normal = touching_normal(surface, feature, of_a ? -along : along, turned);
+  return normal == Vec3{} ? Vec3{0.0, 0.0, -1.0} : -normal;
 }
 
 void PointFinder::add_edges(int e, int f) {

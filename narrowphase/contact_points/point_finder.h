@@ -44,6 +44,7 @@ class PointFinder {
   bool is_settled_corner(const VertexAndFacet& one) const;
   void look_inside_facet(const VertexAndFacet& one);
   void look_at_border(const VertexAndFacet& one);
+  Vec3 way_where_they_touch(const ScaledMesh& surface, std::span<const int> feature, bool of_a) const;
   void add_vertex_point(const VertexAndFacet& pair, std::span<const int> feature, const Nearest& nearest);
   void add_edges(int e, int f);
   void look_at_edges(int e, int f);

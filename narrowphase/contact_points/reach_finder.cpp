@@ -23,6 +23,13 @@ void put_facet(const ScaledMesh& m, const Corners& corners, const std::array<dou
   }
 }
 
+bool is_point(const Corners& corners) { return corners[0] == corners[1] && corners[0] == corners[2]; }
+
+bool is_point(const ScaledMesh& m, int vertex) {
+  return std::ranges::any_of(m.features.facets_at(vertex),
+                             [&](int facet) { return is_point(m.features.corners(facet)); });
+}
+
 }  // namespace
 
 void ReachFinder::search(const OpenFeatures& a, const OpenFeatures& b) {
@@ -55,6 +62,9 @@ void ReachFinder::add_vertex(FeaturePair kind, int vertex, Vec3 v, int facet) {
   const Corners& corners = surface.features.corners(facet);
   if (same_ && std::ranges::find(corners, vertex) != corners.end()) return;
   if ((surface.features.firsts_of_facet(facet) & Features::kRepeatsVertices) != 0) return;
+  // Two points are one pair: that of a's vertex, of one mesh that of the lesser one.
+  const bool comes_second = same_ ? m.mesh.source_vertex(vertex) > m.mesh.source_vertex(corners[0]) : !of_a;
+  if (comes_second && is_point(corners) && is_point(m, vertex)) return;
   const ClosestPlaces places = closest_of_vertex_and_facet(v, surface.triangle(facet));
   if (!(places.distance < reach_)) return;
   const Vec3 normal = of_a ? places.normal : -places.normal;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "narrowphase/contact_points/touching_normal.h"
 #include "narrowphase/distance/edge_edge.h"
 #include "narrowphase/queries/mesh_queries.h"
 
@@ -144,7 +145,12 @@ void append_vertices(const Crossing& c, const CrossedSurface& own, const Crossed
   for (std::size_t i = 0; i < own.exits.values().size(); ++i) {
     const NearestExit& exit = own.exits.values()[i];
     const int vertex = own.mesh.features->vertex_of_source(own.exits.vertices()[i]);
-    found.push_back(point_of_vertex(kind, *own.mesh.mesh, vertex, *other.mesh.mesh, exit.place, -exit.direction,
+    Vec3 out = exit.direction;
+    if (exit.distance == 0.0 && !c.of_itself && other.surface == SurfaceKind::closed) {
+      const Vec3 along = &own == &c.a() ? -c.direction : c.direction;
+      out = touching_normal(other.scaled(), exit.place.used(), along, Turned::as_it_is);
+    }
+    found.push_back(point_of_vertex(kind, *own.mesh.mesh, vertex, *other.mesh.mesh, exit.place, -out,
                                     negative(exit.distance / own.scale)));
   }
 }

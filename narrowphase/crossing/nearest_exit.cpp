@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "narrowphase/distance/short_ways.h"
 #include "narrowphase/distance/vertex_facet.h"
 #include "narrowphase/mesh/cluster_search.h"
 #include "narrowphase/mesh/open_in_box.h"
@@ -28,7 +29,7 @@ struct SeenFacet {
     normal = moderate_cross(t[1] - t[0], t[2] - t[0]);
     length = norm(normal);
     is_tiny = normal != cross(t[1] - t[0], t[2] - t[0]);
-    if (length > 0.0) height = -dot(normal, t[0]) / length;
+    if (length > 0.0) height = height_above(v, facet, normal, length);
   }
 };
 
@@ -59,15 +60,29 @@ Triangle scaled_triangle(const FacetBlock& facets, int i, double scale) {
   return t;
 }
 
-PlaceInFacet nearest_place(const SeenFacet& seen, int facet) {
+// The way from the vertex to a place on a side of a facet, or in a corner.
+Vec3 way_to_side(const ScaledMesh& m, Vec3 v, const SeenFacet& seen, int facet, const std::array<double, 3>& weight) {
+  const Vec3 way = place_of(seen.t, weight);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    if (weight[k] > 0.0 || !(weight[i] > 0.0 && weight[j] > 0.0)) continue;
+    if (norm_squared(way) > kSignRounding * kSignRounding * norm_squared(seen.t[j] - seen.t[i])) break;
+    const Triangle t = m.triangle(facet);
+    return fine_way_to_line(v, t[i], t[j]);
+  }
+  return way;
+}
+
+PlaceInFacet nearest_place(const ScaledMesh& m, Vec3 v, const SeenFacet& seen, int facet) {
   PlaceInFacet place;
   place.facet = facet;
   place.weight = weights_of(seen);
-  const Vec3 unit = (1.0 / seen.length) * seen.normal, to = place_of(seen.t, place.weight);
+  const Vec3 unit = (1.0 / seen.length) * seen.normal;
   if (std::ranges::all_of(place.weight, [](double w) { return w > 0.0; })) {
     place.distance = std::abs(seen.height);
     place.direction = seen.height > 0.0 ? -unit : unit;
   } else {
+    const Vec3 to = way_to_side(m, v, seen, facet, place.weight);
     place.distance = length_of(to);
     const bool is_short = place.distance < 0x1p-400;  // its inverse may overflow
     place.direction = to == Vec3{} ? unit : is_short ? unit_vector(to) : (1.0 / place.distance) * to;
@@ -106,9 +121,10 @@ double height_at_edge(const ScaledMesh& m, int facet, int side, Vec3 v, double o
   double highest = own_height, lowest = own_height;
   for (const int other : third) {
     if (other == c[(k + 2) % 3]) continue;
-    const Vec3 normal = cross(p - q, m.position(other) - q);  // the neighbour has the edge the other way around
+    const Triangle t{q, p, m.position(other)};  // the neighbour has the edge the other way around
+    const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
     const double length = norm(normal);
-    const double above = length > 0.0 ? dot(normal, v - q) / length : 0.0;
+    const double above = length > 0.0 ? height_above(v, t, normal, length) : 0.0;
     highest = std::max(highest, above);
     lowest = std::min(lowest, above);
   }
@@ -214,7 +230,7 @@ std::optional<PlaceInFacet> ExitFinder::search(Vec3 v, double within, int hint, 
   double least = within;
   const auto look_at = [&](int facet, const SeenFacet& seen) {
     if (seen.length == 0.0 || std::abs(seen.height) > with_rounding(least) || !counts(seen)) return;
-    const PlaceInFacet place = nearest_place(seen, facet);
+    const PlaceInFacet place = nearest_place(m, v, seen, facet);
     if (place.distance > least) return;
     if (best && place.distance == best->distance && m.mesh.source_facet(facet) > m.mesh.source_facet(best->facet))
       return;
@@ -279,7 +295,7 @@ std::optional<ExitThrough> ExitFinder::nearest_exit_through(Vec3 v, double withi
 std::optional<NearestExit> exit_to_facet(const ScaledMesh& surface, int facet, Vec3 v) {
   const SeenFacet seen(surface.triangle(facet), v);
   if (seen.length == 0.0) return {};
-  return exit_at(surface, nearest_place(seen, facet));
+  return exit_at(surface, nearest_place(surface, v, seen, facet));
 }
 
 }  // namespace tact::narrowphase

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "narrowphase/distance/short_ways.h"
 #include "narrowphase/distance/signs.h"
 #include "narrowphase/numeric/unit_scale.h"
 
@@ -66,10 +67,11 @@ struct Sides {
   const ScaledVertices &third_e, &third_f;
   EdgeSide side;
 
-  // The point with the side that the facets leave to it. Before: with `across` as its normal.
+  // The point with the side that the facets leave to it. Before: with `across` as its normal, along which f is as high
+  // above e as `height`.
   template <class Number>
-  std::optional<Nearest> operator()(const LinePair<Number>& lines, const Nearest& nearest) const {
-    const bool turned = (head_of(dot(lines.across, lines.r)) < 0.0) == (side == EdgeSide::before);
+  std::optional<Nearest> operator()(const LinePair<Number>& lines, double height, const Nearest& nearest) const {
+    const bool turned = (height < 0.0) == (side == EdgeSide::before);
     const double first = turned ? -1.0 : 1.0;
     for (const double way : {first, -first}) {
       if (!lines.leads(way, e.p, third_e) && !lines.leads(-way, f.p, third_f)) {
@@ -104,18 +106,24 @@ bool certainly_none(const LinePair<double>& lines, double limit) {
   return is_beside(lines.on_e(), width) || is_beside(dot(aside, lines.across), length);
 }
 
-// Edges clearly not parallel. What is found goes through finish(lines, nearest).
+// Edges clearly not parallel. What is found goes through finish(lines, height, nearest).
 template <class Finish>
-std::optional<Nearest> between(const LinePair<double>& lines, double limit, const Finish& finish) {
+std::optional<Nearest> between(const LinePair<double>& lines, const EdgeEnds& e, const EdgeEnds& f, double limit,
+                               const Finish& finish) {
   const double s = lines.on_e(), t = lines.on_f();
   if (!(s > 0.0 && s < lines.square && t > 0.0 && t < lines.square)) return {};
-  const double length = std::sqrt(lines.square), distance = std::abs(dot(lines.across, lines.r) / length);
+  const double length = std::sqrt(lines.square), along = dot(lines.across, lines.r);
+  const bool is_told =
+      tells_height(along, lines.square, size_squared(lines.u), size_squared(lines.w), size_squared(lines.r));
+  const double height = is_told ? along / length : fine_height(e.p, e.q, f.p, f.q, e.p, f.p);
+  const double distance = std::abs(height);
   if (!(distance < limit)) return {};
   const double of_e = s / lines.square, of_f = t / lines.square;
-  return finish(lines, Nearest{.normal = {lines.across.x / length, lines.across.y / length, lines.across.z / length},
-                               .distance = distance,
-                               .weight = {1.0 - of_f, of_f},
-                               .first = {1.0 - of_e, of_e}});
+  return finish(lines, height,
+                Nearest{.normal = {lines.across.x / length, lines.across.y / length, lines.across.z / length},
+                        .distance = distance,
+                        .weight = {1.0 - of_f, of_f},
+                        .first = {1.0 - of_e, of_e}});
 }
 
 // Nearly parallel edges, or such short ones that products vanish, whose lengths are scaled to near 1 by two powers of
@@ -138,17 +146,19 @@ std::optional<Nearest> fine_between(const LinePair<DoubleDouble>& lines, double 
   if (t.head < 0.0) t = {};
   if (scale_f * t.head > 1.0) t = {1.0 / scale_f};
   DoubleDoubleVec3 way = (lines.r + t * lines.w) - s * lines.u;
-  const double distance = square_root(dot(way, way)).head;
+  double distance = square_root(dot(way, way)).head, height = dot(lines.across, lines.r).head;
+  if (!(distance > kFineRounding)) distance = height = 0.0;
   if (!(distance < limit)) return {};
   // A way so short has no direction of its own: lengths are near 1.
   if (!(distance > 0x1p-40)) way = lines.across;
   if (dot(way, lines.across).head < 0.0) way = -way;
   const DoubleDouble length = square_root(dot(way, way)), one{1.0}, of_e = scaled(s, scale_e),
                      of_f = scaled(t, scale_f);
-  return finish(lines, Nearest{.normal = heads({way.x / length, way.y / length, way.z / length}),
-                               .distance = distance,
-                               .weight = {(one - of_f).head, of_f.head},
-                               .first = {(one - of_e).head, of_e.head}});
+  return finish(lines, height,
+                Nearest{.normal = heads({way.x / length, way.y / length, way.z / length}),
+                        .distance = distance,
+                        .weight = {(one - of_f).head, of_f.head},
+                        .first = {(one - of_e).head, of_e.head}});
 }
 
 double scale_of(const NumberVector<double>& v) {
@@ -161,7 +171,7 @@ std::optional<Nearest> between_edges(const EdgeEnds& e, const EdgeEnds& f, doubl
   const NumberVector<double> along_e = difference<double>(e.q, e.p), along_f = difference<double>(f.q, f.p);
   const LinePair<double> rough(along_e, along_f, difference<double>(f.p, e.p), cross(along_e, along_f));
   if (rough.size_squared > kVanishing) {
-    if (rough.square > kNearlyParallel * rough.size_squared) return between(rough, limit, finish);
+    if (rough.square > kNearlyParallel * rough.size_squared) return between(rough, e, f, limit, finish);
     if (certainly_none(rough, limit)) return {};
   }
   const double scale_e = scale_of(rough.u), scale_f = scale_of(rough.w);
@@ -181,7 +191,7 @@ std::optional<Nearest> nearest_between_edges(const EdgeEnds& e, const ScaledVert
 }
 
 std::optional<Nearest> nearest_inside_edges(const EdgeEnds& e, const EdgeEnds& f, double limit) {
-  return between_edges(e, f, limit, [](const auto&, const Nearest& nearest) { return std::optional(nearest); });
+  return between_edges(e, f, limit, [](const auto&, double, const Nearest& nearest) { return std::optional(nearest); });
 }
 
 }  // namespace tact::narrowphase

@@ -15,6 +15,7 @@ namespace {
 struct EdgeLanes {
   VectorPack across;
   Pack square, height;
+  Pack rounding_squared;  // of the height, times `square`
   Mask clear, beyond;
 
   EdgeLanes(const QuadLanes& q, Pack reach_squared) {
@@ -25,6 +26,7 @@ struct EdgeLanes {
     square = dot(across, across);
     height = dot(across, r);
     const Pack size_squared = mul(dot(u, u), dot(w, w));
+    rounding_squared = mul(spread(kSignRounding * kSignRounding), mul(dot(r, r), size_squared));
     clear = both(less(spread(kVanishing), size_squared), less(mul(spread(kNearlyParallel), size_squared), square));
     const Mask beside =
         either(either(less_equal(s, zero), less_equal(square, s)), either(less_equal(t, zero), less_equal(square, t)));
@@ -58,11 +60,11 @@ std::uint64_t edges_beyond(const EdgePairs& pairs, const PointArrays& a, const P
     };
     const QuadLanes q{{point(0, 0), point(0, 1), point(1, 0), point(1, 1)}};
     const EdgeLanes edges(q, reach_squared);
-    // Which way the point's normal goes along `across`. Edges that nearly touch may be seen from both sides.
+    // Which way the point's normal goes along `across`. Of edges that touch, or nearly, doubles do not tell.
     const Mask below = less(edges.height, zero);
     const Pack sign = side == EdgeSide::before ? select(below, opposite, one) : select(below, one, opposite);
     const Pack back = sub(zero, sign);
-    const Mask has_side = less(mul(spread(0x1p-400), edges.square), mul(edges.height, edges.height));
+    const Mask has_side = less(edges.rounding_squared, mul(edges.height, edges.height));
     const Mask leads =
         either(either(edges.leads(sign, q.point[0], point(0, 2)), edges.leads(sign, q.point[0], point(0, 3))),
                either(edges.leads(back, q.point[2], point(1, 2)), edges.leads(back, q.point[2], point(1, 3))));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "narrowphase/distance/short_ways.h"
 #include "narrowphase/distance/signs.h"
 
 namespace tact::narrowphase {
@@ -27,7 +28,8 @@ std::optional<Nearest> nearest_inside_edge(Vec3 v, Vec3 p, Vec3 q, const ScaledV
   if (!(place > 0.0 && place < length)) return {};
   const double t = place / length;
   // From the nearer end, so that the product is as short as can be.
-  const Vec3 way = t < 0.5 ? t * edge - (v - p) : (t - 1.0) * edge - (v - q);
+  Vec3 way = t < 0.5 ? t * edge - (v - p) : (t - 1.0) * edge - (v - q);
+  if (norm_squared(way) <= kSignRounding * kSignRounding * length) way = fine_way_to_line(v, p, q);
   const double distance = length_of(way);
   if (!(distance < limit)) return {};
   for (std::size_t i = 0; i < third.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "narrowphase/distance/short_ways.h"
 #include "narrowphase/distance/signs.h"
 #include "narrowphase/numeric/unit_scale.h"
 
@@ -20,7 +21,7 @@ std::optional<Nearest> nearest_inside_facet(Vec3 v, const Vec3 (&corner)[3], dou
   for (int k = 0; k < 3; ++k) {
     if (side_of_edge(v, corner[(k + 1) % 3], corner[(k + 2) % 3], corner[k]) <= 0) return {};
   }
-  const double length = std::sqrt(square), height = along / length;
+  const double length = std::sqrt(square), height = height_above(v, {corner[0], corner[1], corner[2]}, normal, length);
   if (!(std::abs(height) < limit)) return {};
   Nearest nearest{.normal = (height < 0.0 ? 1.0 / length : -1.0 / length) * normal, .distance = std::abs(height)};
   double sum = 0.0;

@@ -180,7 +180,7 @@ TEST(Planes, ContactsAreThoseOfRationalNumbers) {
 }
 
 TEST(Planes, MotionIsThatOfRationalNumbers) {
-  int impacts = 0;
+  int impacts = 0, near = 0;
   for (int seed = 0; seed < 150; ++seed) {
     Random random(static_cast<std::uint64_t>(1000 + seed));
     const PlaneCase one = random_case(random);
@@ -192,11 +192,16 @@ TEST(Planes, MotionIsThatOfRationalNumbers) {
     double first_stop = kUnbounded;
     for (int v = 0; v < one.after.cols() && one.before != one.after; ++v) {
       if (!used[static_cast<std::size_t>(v)]) continue;
-      const auto time = exact_time(one.plane, vec(one.before.col(v)), vec(one.after.col(v)),
-                                   one.margin_of_body + one.margin_of_plane);
+      // What begins within the sum of the margins, or hardly above it, may come to a tenth of its height.
+      const double sum = one.margin_of_body + one.margin_of_plane;
+      const double height = std::abs(exact_height(one.plane, vec(one.before.col(v))));
+      const bool begins_near = height <= sum + 0x1p-10 * sum;
+      near += begins_near && height > 0.0 ? 1 : 0;
+      const auto time =
+          exact_time(one.plane, vec(one.before.col(v)), vec(one.after.col(v)), begins_near ? 0.1 * height : sum);
       if (!time) continue;
       expected.emplace_back(*time, v);
-      // What is near at the beginning and goes no nearer does not stop.
+      // What is in the plane at the beginning and goes no lower does not stop.
       const bool stops = *time > 0.0 || exact_height(one.plane, vec(one.after.col(v))) <
                                             exact_height(one.plane, vec(one.before.col(v)));
       if (stops) first_stop = std::min(first_stop, *time);
@@ -214,7 +219,8 @@ TEST(Planes, MotionIsThatOfRationalNumbers) {
     const MotionReport& first = scene.world.detect_motion(Impacts::first);
     ASSERT_EQ(first.first_time(), first_stop) << "seed " << seed;
   }
-  EXPECT_GT(impacts, 300);
+  EXPECT_GT(impacts, 200);
+  EXPECT_GT(near, 20);
 }
 
 TEST(Planes, QueriesAreThoseOfRationalNumbers) {
@@ -460,7 +466,7 @@ TEST(Planes, RigidBodiesRollOnThem) {
   world.set_pose(body, Eigen::Matrix3d::Identity(), {0.0, 0.0, 0.52});
   EXPECT_EQ(world.detect().find_contact(body, floor)->points().size(), 4u);
   world.set_pose(body, Eigen::AngleAxisd(0.7853981633974483, Eigen::Vector3d::UnitX()).matrix(), {0.0, 0.0, 0.72});
-  EXPECT_EQ(world.detect_motion().impacts().size(), 4u);
+  EXPECT_EQ(world.detect_motion().impacts().size(), 0u);  // nothing comes to a tenth of its height
   EXPECT_EQ(world.detect().find_contact(body, floor)->points().size(), 2u);
   world.set_pose(body, Eigen::AngleAxisd(0.7853981633974483, Eigen::Vector3d::UnitX()).matrix(), {0.0, 0.0, 0.78});
   EXPECT_EQ(world.detect().candidate_pairs().size(), 0u);

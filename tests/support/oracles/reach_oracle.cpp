@@ -77,11 +77,18 @@ bool share_any(const ReachFeature& a, const ReachFeature& b) {
   return std::ranges::any_of(a, [&](int v) { return v >= 0 && std::ranges::find(b, v) != b.end(); });
 }
 
+// Two points are listed once: as the vertex of the first, or the lesser one.
+bool comes_second(const ReachMesh& a, const ReachFeature& vertex, const ReachFeature& facet, FeaturePair kind,
+                  bool same) {
+  const bool are_points = facet[1] < 0 && std::ranges::find(a.facets, vertex) != a.facets.end();
+  return are_points && (same ? facet[0] < vertex[0] : kind == FeaturePair::facet_vertex);
+}
+
 void add_of_vertices(const ReachMesh& a, const ReachMesh& b, FeaturePair kind, bool same, long double reach,
                      std::map<ReachKey, long double>& found) {
   for (const ReachFeature& vertex : a.vertices) {
     for (const ReachFeature& facet : b.facets) {
-      if (same && share_any(vertex, facet)) continue;
+      if ((same && share_any(vertex, facet)) || comes_second(a, vertex, facet, kind, same)) continue;
       const long double distance = from_facet(a.at(vertex[0]), b, facet);
       if (!(distance < reach)) continue;
       found[kind == FeaturePair::vertex_facet ? ReachKey{kind, vertex, facet} : ReachKey{kind, facet, vertex}] =
