@@ -13,6 +13,7 @@
 #include "engine/base/timer.h"
 #include "engine/check_coordinate.h"
 #include "engine/check_name.h"
+#include "narrowphase/motion/meeting.h"
 #include "narrowphase/pairs/box_reach.h"
 
 namespace tact {
@@ -30,6 +31,16 @@ constexpr double kFarTogether = 0x1p-4;
 // Known candidates that are searched for what a pair of clusters costs, kMotionCost.
 constexpr std::size_t kCandidates = 64;
 constexpr double kNever = std::numeric_limits<double>::infinity();
+
+// When a vertex comes to a plane, as two features meet that begin as near: see meeting.h.
+std::optional<double> meeting_time_with_plane(const narrowphase::HalfSpace& plane,
+                                              const narrowphase::MovingVertex& vertex, double reach) {
+  const auto time = narrowphase::meeting_time(plane, vertex.at[0], vertex.at[1], reach);
+  if (!time || reach == 0.0) return time;
+  const double height = std::abs(narrowphase::height_over(plane, vertex.at[0]));
+  if (height > reach + narrowphase::kJustAbove * reach) return time;
+  return narrowphase::meeting_time(plane, vertex.at[0], vertex.at[1], narrowphase::kShareOfGap * height);
+}
 
 }  // namespace
 
@@ -438,7 +449,7 @@ void MotionStage::find_clusters_near_plane(const BodyAndPlane& pair, const narro
   }
 }
 
-// Of what moves straight vertices come to a plane first. What is as near at the beginning stops if it goes nearer.
+// Of what moves straight vertices come to a plane first. What is in it at the beginning stops if it goes down.
 void MotionStage::search_plane(const BodyAndPlane& pair, const narrowphase::MovingMesh& body,
                                const narrowphase::FeatureRules& rules,
                                std::span<const narrowphase::ClusterPair> clusters, std::atomic<double>* first,
@@ -450,7 +461,7 @@ void MotionStage::search_plane(const BodyAndPlane& pair, const narrowphase::Movi
       const auto &of_a = pair.plane_is_a ? of_plane : of_body, &of_b = pair.plane_is_a ? of_body : of_plane;
       if (!rules.filter.allows(of_a, of_b)) continue;
       const double distance = rules.reach.of(of_a, of_b);
-      const auto time = narrowphase::meeting_time(*pair.plane, vertex.at[0], vertex.at[1], distance);
+      const auto time = meeting_time_with_plane(*pair.plane, vertex, distance);
       if (!time) continue;
       FeatureImpact impact{.kind = pair.plane_is_a ? FeaturePair::plane_vertex : FeaturePair::vertex_plane,
                            .time = *time,

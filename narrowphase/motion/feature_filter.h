@@ -16,7 +16,8 @@ class ExcludedNeighbors;
 struct FilterNumbers {
   std::span<const std::uint32_t> layers = {}, masks = {};
   std::span<const std::uint32_t> labels = {};  // where any are excluded
-  bool are_uniform() const { return layers.empty() && masks.empty() && labels.empty(); }
+  bool have_layers() const { return !layers.empty() || !masks.empty(); }
+  bool are_uniform() const { return !have_layers() && labels.empty(); }
 };
 
 struct SurfaceFilter {

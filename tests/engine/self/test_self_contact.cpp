@@ -1,6 +1,7 @@
 // Contact of a body with itself, against oracles: facet pairs by CGAL, contact points by brute force.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -282,6 +283,38 @@ TEST(SelfContact, GoesFromOneBodyToAnotherBetweenTwoSteps) {
     EXPECT_EQ(report.contacts()[i].a.index, expected.contacts()[i].a.index);
     EXPECT_EQ(report.contacts()[i].b.index, expected.contacts()[i].b.index);
   }
+}
+
+// Its own layer and mask do not say whether a body is tested against itself; nor do labels that nothing has.
+TEST(SelfContactFilters, OfLabelsThatNothingHasLeaveOutNothing) {
+  MeshBuilder builder;
+  builder.triangle({0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0});
+  builder.triangle({1.0, 0.1, 1.0}, {0.0, 0.1, 0.5}, {0.5, -1.0, 0.5});
+  const Mesh mesh = builder.mesh();
+  World world({.threads = 1, .outputs = {.points = true, .within_reach = true}});
+  const BodyId body = world.add_body({.positions = mesh.positions,
+                                      .facets = mesh.facets,
+                                      .surface = Surface::sheet,
+                                      .layer = 2,
+                                      .mask = 1,
+                                      .margin = 1.0,
+                                      .self_contact = true});
+  const auto found = [&] {
+    const Report& report = world.detect();
+    if (report.contacts().empty()) return std::array<std::size_t, 3>{};
+    const Contact& contact = report.contacts()[0];
+    return std::array{contact.facet_pairs().size(), contact.points().size(), contact.within_reach().size()};
+  };
+  const std::array<std::size_t, 3> before = found();
+  EXPECT_TRUE(before[0] > 0 && before[1] > 0 && before[2] > 0);
+  const std::vector<std::uint32_t> vertices(6, 5), facets(2, 7);
+  world.set_feature_settings(body, {.vertex_labels = vertices, .facet_labels = facets});
+  for (const LabelKind kind : {LabelKind::vertex, LabelKind::facet}) {
+    world.set_excluded_labels({body, 1, body, 1, kind}, true);
+    EXPECT_EQ(found(), before);
+  }
+  world.set_excluded_labels({body, 7, body, 7, LabelKind::facet}, true);
+  EXPECT_EQ(found(), (std::array<std::size_t, 3>{}));
 }
 
 // A filter that was set while there were no vertices: all rest where they are set.

@@ -26,8 +26,9 @@ inline Eigen::Vector2d sliding(const Stencil& stencil, const Tangents& tangents,
 }
 
 /// Returns the potential whose gradient is a friction force of at most `limit` newtons against the way `moved` of the
-/// vertices since the step began. Below `smoothing` metres the force grows smoothly; weights and tangents stay those
-/// given. Its Hessian is positive semidefinite. (Li et al., Incremental Potential Contact, 2020, section 5.)
+/// vertices since the step began. Below `smoothing` metres, which are positive, the force grows smoothly; weights and
+/// tangents stay those given. Its Hessian is positive semidefinite. (Li et al., Incremental Potential Contact, 2020,
+/// section 5.)
 inline Term friction_term(const Stencil& stencil, const Tangents& tangents, const Corners& moved, double limit,
                           double smoothing) {
   const Eigen::Vector2d way = sliding(stencil, tangents, moved);

@@ -49,11 +49,12 @@ inline Term product(const Term& f, const Term& g) {
 }
 
 /// Returns the barrier of a stencil's gap at positions `x`; with a `threshold` of mollifier_threshold() times
-/// edge_mollifier(). Multiply it by a stiffness, and by area_weight() where meshes differ in size.
+/// edge_mollifier() where it is finite. Multiply it by a stiffness, and by area_weight() where meshes differ in size.
 inline Term barrier_term(const Stencil& stencil, const Corners& x, double reach, double threshold = 0.0) {
   const Gap gap = gap_of(stencil, x);
   const Term term = chain(barrier(gap.distance.value, reach), gap.distance);
-  return term.value > 0.0 && threshold > 0.0 ? product(edge_mollifier(stencil, x, threshold), term) : term;
+  const bool has_factor = threshold > 0.0 && term.value > 0.0 && std::isfinite(term.value);
+  return has_factor ? product(edge_mollifier(stencil, x, threshold), term) : term;
 }
 
 /// Returns the penalty of a stencil's gap at positions `x`. Multiply it by a stiffness in N/m.

@@ -70,13 +70,12 @@ inline Term widened(const ReachStencil& pair, const Term& term) {
 }
 
 /// Returns the barrier of a pair's distance at positions `x` (3 x V), a term of its `whole` stencil; with a `threshold`
-/// of mollifier_threshold() times edge_mollifier(). It is that of the closest features the pair had.
+/// of mollifier_threshold() times edge_mollifier() where it is finite. It is that of the closest features the pair had.
 inline Term barrier_term(const ReachStencil& pair, const Eigen::Ref<const Eigen::Matrix3Xd>& x, double reach,
                          double threshold = 0.0) {
   const Term term = widened(pair, barrier_term(pair.closest, gather(pair.closest, x), reach));
-  return term.value > 0.0 && threshold > 0.0
-             ? product(edge_mollifier(pair.whole, gather(pair.whole, x), threshold), term)
-             : term;
+  const bool has_factor = threshold > 0.0 && term.value > 0.0 && std::isfinite(term.value);
+  return has_factor ? product(edge_mollifier(pair.whole, gather(pair.whole, x), threshold), term) : term;
 }
 
 }  // namespace tact::solver
