@@ -163,8 +163,8 @@ void Partition::ranks_near(const base::Box& box, std::vector<int>& ranks) const 
   int count = 0;
   const int code = Zoltan_LB_Box_Assign(zoltan_, box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y,
                                         box.upper.z, found_.data(), &count);
-  ranks.resize(found_.size());
   if (code == ZOLTAN_FATAL) {
+    ranks.resize(found_.size());
     std::iota(ranks.begin(), ranks.end(), 0);
     return;
   }

@@ -18,15 +18,14 @@ struct Piece {
   std::string text;
 };
 
-// All ranks call every function together. Until finish() the file is NAME.part, and an older file of its name stays. A
-// link leads to what is written at once.
-// No rank holds more than its share of the pieces, besides those that it gave.
+// All ranks call every function together. Until finish() the file is NAME.part, and an older file of its name stays;
+// what a link leads to is written at once. No rank holds more than its share of the pieces, besides those that it gave.
 class OrderedFile {
  public:
   // First keys are below `key_count`, and as many are near 0 as near it. Errors: FileError, on every rank, for a device
   // or a pipe as well.
   OrderedFile(MPI_Comm communicator, std::filesystem::path path, std::uint64_t key_count);
-  // Without finish(), nothing is left of the file.
+  // Without finish(), nothing is left of a file that is not written at once.
   ~OrderedFile();
   OrderedFile(const OrderedFile&) = delete;
   OrderedFile& operator=(const OrderedFile&) = delete;

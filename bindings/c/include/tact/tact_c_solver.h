@@ -74,8 +74,7 @@ TACT_C_API tact_error tact_stencil_barriers(const tact_stencil* stencils, size_t
 TACT_C_API tact_error tact_stencil_penalties(const tact_stencil* stencils, size_t count, const double* positions,
                                              size_t vertex_count, double reach, tact_terms terms);
 /** Gives the potentials of friction for the ways `moved` of the vertices since the step began, with the largest force
- * of each stencil in `limits`, newtons. Below `smoothing` metres, which are positive, the force grows
- * smoothly. */
+ * of each stencil in `limits`, newtons. Below `smoothing` metres, which are positive, the force grows smoothly. */
 TACT_C_API tact_error tact_stencil_friction(const tact_stencil* stencils, size_t count, const double* moved,
                                             size_t vertex_count, const double* limits, double smoothing,
                                             tact_terms terms);
