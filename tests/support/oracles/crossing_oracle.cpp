@@ -485,12 +485,14 @@ std::optional<Separation> separation_of(const Shape& a, const Shape& b, const Cr
   return Separation{direction, std::ranges::any_of(normals, [&](const Long3& n) { return n.dot(direction) < 0.5L; })};
 }
 
-// Those sets that have no point.
+// Those sets that are not known to have a point: of edges that are not certain the engine may find none, and ways
+// instead.
 void find_without_point(const VertexSets& set, ExpectedGaps& expected) {
   std::set<int> with_point;
   for (const auto& [v, _] : expected.vertices_of_a) with_point.insert(set.at(v));
   for (const auto& [v, _] : expected.vertices_of_b) with_point.insert(set.at(-1 - v));
-  for (const auto& [e, _] : expected.edges) {
+  for (const auto& [e, one] : expected.edges) {
+    if (!one.certain) continue;
     for (const int v : {e[0], e[1], -1 - e[2], -1 - e[3]}) {
       if (set.contains(v)) with_point.insert(set.at(v));
     }

@@ -22,7 +22,7 @@ struct ExpectedGap {
 struct ExpectedGaps {
   std::map<int, ExpectedGap> vertices_of_a, vertices_of_b;  // inside the other body
   std::map<std::array<int, 4>, ExpectedGap> edges;          // of a, of b
-  std::set<int> others_of_a, others_of_b;                   // of crossings without such points, which have others
+  std::set<int> others_of_a, others_of_b;                   // of crossings without such points, which may have others
 };
 
 /// What the last step said of the normals of vertices, from a to b.
