@@ -11,8 +11,8 @@
 // So a shallow vertex has its distance to the surface, and a deep one keeps the side that it came from. An exit is
 // local:
 //   - it is no longer than the mesh is thick there, which is the way from the nearest place through the vertex to the
-//     other side. A vertex that had a negative gap may be deeper, but gets no deeper in a step by more than that: such
-//     a step does not tell through which side it came; and
+//     other side. A vertex that had a negative gap may be deeper: up to twice as deep as it was, or deeper by at most
+//     that. A longer step does not tell through which side it came; and
 //   - where the last step does not name its side, nothing of the mesh is between the vertex and the place.
 // Otherwise the exit is that of 3.
 // A vertex that had a positive gap keeps its normal only if it is not against its patch's: one that has come out on the

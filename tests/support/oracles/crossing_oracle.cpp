@@ -246,18 +246,25 @@ class Crossed {
     const long double limit = depth_ + 1e-12L + shift;
     const auto& [out, is_known] = facing(v);
     Way way;
+    std::optional<long double> last_depth;  // if the last step names the side
     if (last_.contains(v)) {
       const Long3 carried = sign_ * to_long(last_.at(v).normal);
-      const bool was_inside = last_.at(v).gap < 0.0;
-      if (was_inside || carried.dot(out) >= 0) way = nearest_facing(other_, x, carried, 0.5L + shift);
-      if (was_inside && way.distance <= limit) return {way, true};
+      const double gap = last_.at(v).gap;
+      if (gap < 0.0 || carried.dot(out) >= 0) way = nearest_facing(other_, x, carried, 0.5L + shift);
+      if (way.distance <= limit) last_depth = std::max(0.0, -gap);
     }
+    const bool was_inside = last_depth > 0.0L, is_told = is_known || was_inside;
+    if (was_inside && way.distance <= 2 * *last_depth + shift) return {way, is_told};
     if (way.distance > limit && is_known) way = nearest_facing(other_, x, out, 0.05L + shift);
-    // No farther than the body is thick there.
     const Way nearest = nearest_facing(other_, x, out, -2);
-    if (way.distance > limit) return {nearest, is_known};
-    const long double thickness = nearest.distance + along(other_, x - 1e-9L * nearest.out, -nearest.out).distance;
-    return {way.distance > nearest.distance && way.distance >= thickness + shift ? nearest : way, is_known};
+    if (way.distance > limit) return {nearest, is_told};
+    // No deeper than the last step by more than the body is thick there; without a last step straight through the body.
+    const Long3 below = x - 1e-9L * nearest.out;
+    const long double thickness = nearest.distance + along(other_, below, -nearest.out).distance;
+    const long double deeper = way.distance - last_depth.value_or(0);
+    const bool is_thick = deeper <= nearest.distance || deeper < thickness + shift;
+    const bool is_straight = along(other_, below, way.out).distance > (1 - 0x1p-6L + shift) * way.distance;
+    return {is_thick && (last_depth || is_straight) ? way : nearest, is_told};
   }
 
   // With thresholds moved to and fro: certain if that changes nothing.
@@ -498,7 +505,7 @@ void find_without_point(const VertexSets& set, ExpectedGaps& expected) {
     }
   }
   for (const auto& [v, root] : set) {
-    if (!with_point.contains(root)) (v < 0 ? expected.others_of_b : expected.others_of_a).insert(v < 0 ? -1 - v : v);
+    if (!with_point.contains(root)) (v < 0 ? expected.others_of_b : expected.others_of_a)[v < 0 ? -1 - v : v] = root;
   }
 }
 
@@ -524,13 +531,25 @@ ExpectedGaps gaps_by_brute_force(const Mesh& a, const Mesh& b, const Contact& co
 ::testing::AssertionResult has_gaps(const Contact& contact, const ExpectedGaps& expected, double tolerance) {
   std::map<int, double> of_a, of_b;
   std::map<std::array<int, 4>, double> edges;
+  std::set<int> without_point;  // so far
+  for (const auto* others : {&expected.others_of_a, &expected.others_of_b}) {
+    for (const auto& [_, crossing] : *others) without_point.insert(crossing);
+  }
   for (const ContactPoint& point : contact.points()) {
     const auto &a = point.a_vertices, &b = point.b_vertices;
-    const auto any_of = [](const std::array<int, 3>& vertices, const std::set<int>& others) {
-      return std::ranges::any_of(vertices, [&](int v) { return others.contains(v); });
+    bool is_other = false;
+    const auto look_at = [&](const std::array<int, 3>& vertices, const std::map<int, int>& others) {
+      for (const int v : vertices) {
+        if (!others.contains(v)) continue;
+        is_other = true;
+        without_point.erase(others.at(v));
+      }
     };
     const bool crosses = point.gap < 0.0;
-    if (crosses && (any_of(a, expected.others_of_a) || any_of(b, expected.others_of_b))) continue;
+    if (crosses) look_at(a, expected.others_of_a), look_at(b, expected.others_of_b);
+    if (is_other && -point.gap > contact.depth + tolerance)
+      return ::testing::AssertionFailure() << "a way apart of " << -point.gap << " is longer than " << contact.depth;
+    if (is_other) continue;
     bool fresh = true;
     if (point.kind == FeaturePair::edge_edge) {
       if (crosses) fresh = edges.try_emplace({a[0], a[1], b[0], b[1]}, point.gap).second;
@@ -550,6 +569,7 @@ ExpectedGaps gaps_by_brute_force(const Mesh& a, const Mesh& b, const Contact& co
                              same_gaps(expected.edges, edges, tolerance, "edges")}) {
     if (!result) return result;
   }
+  if (!without_point.empty()) return ::testing::AssertionFailure() << "a crossing has no point";
   return ::testing::AssertionSuccess();
 }
 

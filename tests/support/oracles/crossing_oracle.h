@@ -7,7 +7,6 @@
 
 #include <array>
 #include <map>
-#include <set>
 
 #include "tests/support/mesh.h"
 
@@ -22,7 +21,8 @@ struct ExpectedGap {
 struct ExpectedGaps {
   std::map<int, ExpectedGap> vertices_of_a, vertices_of_b;  // inside the other body
   std::map<std::array<int, 4>, ExpectedGap> edges;          // of a, of b
-  std::set<int> others_of_a, others_of_b;                   // of crossings without such points, which may have others
+  // Of crossings that are not known to have such a point: the number of each vertex's crossing. A way apart leads out.
+  std::map<int, int> others_of_a, others_of_b;
 };
 
 /// What the last step said of the normals of vertices, from a to b.
@@ -39,7 +39,8 @@ LastNormals last_normals(const Contact& contact);
 /// `contact` says the direction and depth of the hulls. No facet may lie level with an edge that is near another.
 ExpectedGaps gaps_by_brute_force(const Mesh& a, const Mesh& b, const Contact& contact, const LastNormals& last);
 
-/// Does the contact have these points, each once, and no other with a negative gap? Says the first that differs.
+/// Does the contact have these points, each once, and no other with a negative gap? Crossings that are not known to
+/// have one have at least one point, and none deeper than the contact. Says the first that differs.
 ::testing::AssertionResult has_gaps(const Contact& contact, const ExpectedGaps& expected, double tolerance);
 
 }  // namespace tact::tests
