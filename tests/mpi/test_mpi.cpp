@@ -1,6 +1,8 @@
 // Worlds over many ranks against one world: in each step the sums over all contacts, events and impacts are the same,
-// whoever owns which body.   usage: mpirun -n N test_mpi [--full] [--bodies N] [--steps N] [NAME]
-//   --full  1,000 bodies and 500 steps   NAME  the cases whose name holds this text
+// whoever owns which body.   usage: mpirun -n N test_mpi [--full] [--bodies N] [--steps N] [--many-only] [NAME]
+//   --full       1,000 bodies and 500 steps
+//   --many-only  without the one world: the digests are to be those of other counts of ranks
+//   NAME         the cases whose name holds this text
 #include <mpi.h>
 #include <tact/mpi/world.h>
 
