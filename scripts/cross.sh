@@ -99,12 +99,17 @@ if [[ $platform == libcxx ]]; then
   exit 2
 fi
 folders=(base broadphase narrowphase engine c)
+filter='*'
+if [[ $platform == aarch64 ]]; then
+  echo "aarch64: without the death tests: qemu-user starts no program anew that it runs itself"
+  filter='-*DeathTest.*'
+fi
 build "$name" . "${folders[*]/#/test_}"
 # suite FOLDER: its test program, a part on each core at a time.
 suite() {
   local program=build/cross/$name/tests/test_$1 parts=() status=0 part
   for (( part = 0; part < $(nproc); ++part )); do
-    GTEST_TOTAL_SHARDS=$(nproc) GTEST_SHARD_INDEX=$part run "$program" --gtest_brief=1 > "$program.$part.log" 2>&1 &
+    GTEST_TOTAL_SHARDS=$(nproc) GTEST_SHARD_INDEX=$part run "$program" --gtest_brief=1 --gtest_filter="$filter" > "$program.$part.log" 2>&1 &
     parts+=($!)
   done
   for part in "${!parts[@]}"; do
