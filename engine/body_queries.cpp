@@ -22,7 +22,6 @@ namespace tact {
 namespace {
 
 using base::Box;
-using base::Vec3;
 using narrowphase::MeshDistance;
 using narrowphase::SweptHit;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "engine/base/floating_point_mode.h"
 #include "engine/base/vec3.h"
@@ -97,7 +98,7 @@ class Adder {
 
   void add(ContactSum sum, const Contact& contact, const std::vector<SeenPoint>& seen) {
     for (const SeenPoint& one : seen) name_vertices(contact, *one.point, vertices_);
-    complete(sum, seen);
+    complete(std::move(sum), seen);
   }
 
   static void name_vertices(const Contact& contact, const ContactPoint& point, std::vector<VertexOfBody>& into) {

@@ -190,6 +190,7 @@ SurfaceCheck check_surface(std::span<const Vec3> positions, std::span<const Face
     vertices.push_back(static_cast<int>(v));
   }
   std::vector<Vec3> used;
+  used.reserve(vertices.size());
   for (const int v : vertices) used.push_back(positions[static_cast<std::size_t>(v)]);
   std::vector<Facet> renumbered(facets.begin(), facets.end());
   for (Facet& facet : renumbered) {

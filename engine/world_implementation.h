@@ -47,7 +47,7 @@ struct World::Implementation {
   }
 
   // Before anything changes but positions and poses.
-  void forget_ways() {
+  void forget_ways() {  // NOLINT: not const, as what `motion` holds changes
     if (motion != nullptr) motion->forget_ways();
   }
 

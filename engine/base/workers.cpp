@@ -1,6 +1,6 @@
 #include "engine/base/workers.h"
 
-#include <time.h>  // that of POSIX
+#include <time.h>  // NOLINT: clock_gettime() is that of POSIX
 
 #include <algorithm>
 

@@ -370,10 +370,10 @@ void Bodies::set_self_contact(BodyId id, bool wanted) {
   mark_moved(id.index);
 }
 
-void Bodies::set_self_filter(BodyId id, const SelfContactFilter& given, int threads) {
+void Bodies::set_self_filter(BodyId id, const SelfContactFilter& filter, int threads) {
   const std::uint32_t slot = at(id).id.index;
   const narrowphase::ClusteredMesh& mesh = placed(slot).mesh;
-  std::unique_ptr<SelfFilter> made = made_of(given, source_positions(mesh, mesh.points()), at(id).name);
+  std::unique_ptr<SelfFilter> made = made_of(filter, source_positions(mesh, mesh.points()), at(id).name);
   if (are_same(made.get(), in_slot(slot).self_filter.get())) return;
   if (made != nullptr) {
     make_features({&slot, 1}, threads);

@@ -390,7 +390,7 @@ struct StateFields {
   static void read_self_of(StateReader& reader, BodyId body, const Bodies& bodies, Step& step);
   static void settle(Bodies& bodies, Step& step);
   static void write_contact(const Contact& contact, StateWriter& writer);
-  static void read_contact(StateReader& reader, FarContact& contact);
+  static void read_contact(StateReader& reader, FarContact& far);
 
  private:
   static void add_slots(Bodies& bodies, std::size_t count);

@@ -116,9 +116,9 @@ void StateFields::exclude(const LabelPair& labels, bool excluded, Bodies& bodies
   if (bodies.excluded_labels(labels) != excluded) bodies.excluded_labels_.set(labels, excluded);
 }
 
-void StateFields::mark_moved(BodyId id, bool is_on_its_way, Bodies& bodies) {
-  bodies.mark_moved(id.index);
-  Bodies::Slot& slot = bodies.slots_[id.index];
+void StateFields::mark_moved(BodyId body, bool is_on_its_way, Bodies& bodies) {
+  bodies.mark_moved(body.index);
+  Bodies::Slot& slot = bodies.slots_[body.index];
   if (!is_on_its_way || slot.begin != Bodies::Begin::here) return;
   if (slot.rigid != nullptr) {
     slot.rigid->begin_pose = slot.rigid->pose.pose();

@@ -35,7 +35,7 @@ class LastTouch {
 
   void see(const SurfacePart& part, std::vector<SeenFacet>& seen) const;
   void look_at(const SeenFacet& a, const SeenFacet& b);
-  void look_at_vertex(const SeenFacet& a, const SeenFacet& b, int corner, bool of_a);
+  void look_at_vertex(const SeenFacet& own, const SeenFacet& other, int corner, bool of_a);
   void look_at_edges(const SeenFacet& a, const SeenFacet& b, int edge_a, int edge_b);
   void take(const Touch& touch);
   FeaturePoint point_of(const Touch& touch, const SurfacePart& a, const SurfacePart& b) const;

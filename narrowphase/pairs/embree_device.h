@@ -8,7 +8,7 @@ namespace tact::narrowphase {
 class EmbreeDevice {
  public:
   EmbreeDevice();
-  ~EmbreeDevice();
+  ~EmbreeDevice();  // NOLINT: one of two definitions does nothing, that without Embree
   EmbreeDevice(const EmbreeDevice&) = delete;
   EmbreeDevice& operator=(const EmbreeDevice&) = delete;
 

@@ -60,8 +60,9 @@ void SegmentBatch::begin(std::span<const int> cluster_counts, std::size_t segmen
   }
   if (node_count() <= room_) return;
   room_ = 0;
-  nodes_.reset(new LineNode[node_count()]);
-  leaves_.reset(new LineLeaf[node_count() * LineNode::kLeaves]);
+  // Not by std::make_unique, which would write it all.
+  nodes_.reset(new LineNode[node_count()]);                       // NOLINT(modernize-make-unique)
+  leaves_.reset(new LineLeaf[node_count() * LineNode::kLeaves]);  // NOLINT(modernize-make-unique)
   room_ = node_count();
 }
 

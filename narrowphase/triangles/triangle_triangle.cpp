@@ -101,7 +101,7 @@ bool collinear_meet(const Segment& a, const Segment& b) {
 // The corner of a triangle that a plane parts from the other two, when the corners are neither all strictly on one side
 // nor all in the plane. The plane crosses both edges at that corner, each in one point.
 struct LoneCorner {
-  std::int8_t corner;
+  std::uint8_t corner;
   // +1 or -1: the corner is on that side or in the plane, the others on the other side or in the plane.
   std::int8_t side;
 };
@@ -112,7 +112,7 @@ constexpr LoneCorner find_lone_corner(const Signs& s) {
     const int last = s[(i + 2) % 3];
     const bool touches = s[i] == 0 && next == last && next != 0;
     const bool separated = s[i] != 0 && s[i] != next && s[i] != last;
-    if (touches || separated) return {static_cast<std::int8_t>(i), static_cast<std::int8_t>(touches ? -next : s[i])};
+    if (touches || separated) return {static_cast<std::uint8_t>(i), static_cast<std::int8_t>(touches ? -next : s[i])};
   }
   return {0, 0};
 }
