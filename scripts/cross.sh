@@ -101,7 +101,7 @@ fi
 folders=(base broadphase narrowphase engine c)
 filter='*'
 if [[ $platform == aarch64 ]]; then
-  echo "aarch64: without the death tests: qemu-user starts no program anew that it runs itself"
+  echo "aarch64: without the death tests, which start their program again: qemu-user cannot do that"
   filter='-*DeathTest.*'
 fi
 build "$name" . "${folders[*]/#/test_}"
