@@ -4,7 +4,7 @@
 #include <tact/body.h>
 
 #include <cstdint>
-#include <span>
+#include <map>
 #include <vector>
 
 #include "broadphase/index_pair.h"
@@ -17,11 +17,12 @@ class ExcludedLabels {
  public:
   using Labels = std::vector<narrowphase::TwoLabels>;  // sorted
   struct OfBodies {
-    broadphase::IndexPair bodies;
     Labels of_facets, of_vertices;
     const Labels& of(LabelKind kind) const { return kind == LabelKind::facet ? of_facets : of_vertices; }
     Labels& of(LabelKind kind) { return kind == LabelKind::facet ? of_facets : of_vertices; }
+    bool empty() const { return of_facets.empty() && of_vertices.empty(); }
   };
+  using All = std::map<broadphase::IndexPair, OfBodies>;  // none without labels
 
   bool empty() const { return all_.empty(); }
   /// Null where none are excluded.
@@ -35,11 +36,14 @@ class ExcludedLabels {
   void remove_all_of(std::uint32_t slot);
 
   /// What a state holds, and whether that is what set() makes of it.
-  std::span<const OfBodies> all() const { return all_; }
-  bool put(std::vector<OfBodies>&& all);
+  const All& all() const { return all_; }
+  bool put(All&& all);
 
  private:
-  std::vector<OfBodies> all_;  // sorted by bodies; none without labels
+  void add(const LabelPair& labels);
+  void remove(const LabelPair& labels);
+
+  All all_;
 };
 
 }  // namespace tact

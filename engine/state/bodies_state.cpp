@@ -54,6 +54,16 @@ PoseUpdate update_of(BodyId id, const narrowphase::Pose& pose) {
   return update;
 }
 
+ExcludedLabels::All read_excluded_labels(StateReader& reader) {
+  ExcludedLabels::All all;
+  for (std::size_t left = reader.read_size(1); left > 0; --left) {
+    const auto pair = reader.read<broadphase::IndexPair>();
+    reader.check(all.empty() || all.rbegin()->first < pair, "excluded labels are not in order");
+    reader(all[pair]);
+  }
+  return all;
+}
+
 }  // namespace
 
 MeshState StateFields::mesh_state(const Bodies& bodies, std::uint32_t slot) {
@@ -110,7 +120,8 @@ void StateFields::write(const Bodies& bodies, std::span<const BodyId> gone, Stat
     write_body(bodies, slot, mesh_state(bodies, slot), writer);
   }
   const auto& [excluded_pairs, excluded_changed] = excluded;
-  writer(free, closed, excluded_pairs, std::vector(excluded_labels.all().begin(), excluded_labels.all().end()));
+  writer(free, closed, excluded_pairs, std::uint64_t{excluded_labels.all().size()});
+  for (const auto& [pair, labels] : excluded_labels.all()) writer(pair, labels);
   std::vector<Bodies::Removed> kept;  // of those that the next step names
   std::ranges::copy_if(removed, std::back_inserter(kept),
                        [&](const Bodies::Removed& one) { return std::ranges::binary_search(gone, one.id); });
@@ -221,8 +232,8 @@ void StateFields::read_slots(StateReader& reader, Bodies& bodies) {
   }
   std::vector<std::uint32_t> closed;
   std::vector<broadphase::IndexPair>& excluded = bodies.excluded_.pairs_;
-  std::vector<ExcludedLabels::OfBodies> labels;
-  reader(bodies.free_, closed, excluded, labels);
+  reader(bodies.free_, closed, excluded);
+  ExcludedLabels::All labels = read_excluded_labels(reader);
   const std::size_t slots = count + bodies.free_.size() + closed.size();
   add_slots(bodies, slots);
   std::vector<char> is_empty(slots, 0);
@@ -234,7 +245,7 @@ void StateFields::read_slots(StateReader& reader, Bodies& bodies) {
   for (const auto& [a, b] : excluded)
     reader.check(a < b && b < slots && bodies.used(a) && bodies.used(b), "an excluded body is not there");
   reader.check(std::ranges::is_sorted(excluded), "excluded pairs are not sorted");
-  for (const auto& [pair, of_facets, of_vertices] : labels)
+  for (const auto& [pair, of_bodies] : labels)
     reader.check(pair.a < slots && pair.b < slots && bodies.used(pair.a) && bodies.used(pair.b) &&
                      bodies.plane(pair.a) == nullptr && bodies.plane(pair.b) == nullptr,
                  "a body with excluded labels is not there");

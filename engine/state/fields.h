@@ -149,8 +149,8 @@ struct StateFields {
 
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, ExcludedLabels::OfBodies>& labels) {
-    auto& [bodies, of_facets, of_vertices] = labels;
-    archive(bodies, of_facets, of_vertices);
+    auto& [of_facets, of_vertices] = labels;
+    archive(of_facets, of_vertices);
   }
 
   // By others: body, rigid and begin, as a MeshState; fixed, as part of the filter. Dropped: the rest.

@@ -113,7 +113,8 @@ void StateFields::exclude(BodyId a, BodyId b, bool excluded, Bodies& bodies) {
 }
 
 void StateFields::exclude(const LabelPair& labels, bool excluded, Bodies& bodies) {
-  if (bodies.excluded_labels(labels) != excluded) bodies.excluded_labels_.set(labels, excluded);
+  bodies.check_labels(labels);
+  bodies.excluded_labels_.set(labels, excluded);
 }
 
 void StateFields::mark_moved(BodyId body, bool is_on_its_way, Bodies& bodies) {

@@ -13,9 +13,9 @@
 #include <set>
 #include <string>
 
+#include "tests/support/checks/sinking_bodies.h"
 #include "tests/support/environment/environment.h"
 #include "tests/support/generators/bodies.h"
-#include "tests/support/oracles/crossing_oracle.h"
 #include "tests/support/oracles/exact_point_oracle.h"
 #include "tests/support/oracles/point_oracle.h"
 
@@ -49,21 +49,6 @@ Shape any_shape(Random& random) {
     case 9: return {"needles", needles(10 + random.below(20), std::pow(10.0, -random.uniform(0.0, 5.0)), seed)};
     default: return {"crumple", crumpled(icosphere(1), seed)};
   }
-}
-
-Shape closed_shape(Random& random) {
-  const std::uint64_t seed = random.below(1 << 30);
-  if (random.chance(0.5))
-    return {"blob", blob(1 + random.below(2), random.uniform(0.5, 1.0), 0.3, seed), Surface::closed};
-  return {"hull", random_hull(8 + random.below(30), seed), Surface::closed};
-}
-
-Vec3 highest(const Mesh& mesh, Vec3 direction) {
-  Vec3 highest = mesh.position(0);
-  for (int v = 0; v < mesh.vertex_count(); ++v) {
-    if (dot(direction, mesh.position(v)) > dot(direction, highest)) highest = mesh.position(v);
-  }
-  return highest;
 }
 
 BodyDefinition body_of(const Mesh& mesh, Surface surface, double margin) {
@@ -129,37 +114,7 @@ TEST(PointsLong, OfBodiesThatDoNotCrossEqualBruteForce) {
 
 TEST(PointsLong, GapsOfClosedBodiesEqualBruteForce) {
   std::size_t points = 0;
-  for_pairs([&](std::uint64_t seed) {
-    Random random(seed);
-    const Shape first = closed_shape(random), second = closed_shape(random);
-    const Mesh a = rotated(first.mesh, random.rotation()), shape = rotated(second.mesh, random.rotation());
-    const Vec3 way = random.direction();
-    const Vec3 beside = highest(a, way) - highest(shape, -way);
-    const double margin = random.chance(0.5) ? random.uniform(0.0, 0.05) : 0.0;
-    World world({.threads = 1, .outputs = {.points = true}});
-    world.add_body(body_of(a, Surface::closed, margin));
-    const BodyId moved = world.add_body(body_of(translated(shape, beside + 0.1 * way), Surface::closed, margin));
-    LastNormals last;
-    double depth = -0.1;
-    for (int step = 0; step < 6; ++step) {
-      depth += random.uniform(-0.05, 0.25);
-      const Mesh b = translated(shape, beside - depth * way + 0.05 * random.direction());
-      world.set_positions(moved, b.positions);
-      const Report& report = world.detect();
-      if (report.contacts().empty()) {
-        last = {};
-        continue;
-      }
-      const Contact& contact = report.contacts()[0];
-      if (!contact.facet_pairs().empty()) {
-        const ExpectedGaps expected = gaps_by_brute_force(a, b, contact, last);
-        ASSERT_TRUE(has_gaps(contact, expected, 1e-11))
-            << first.name << " and " << second.name << ", seed " << seed << ", step " << step;
-        points += expected.vertices_of_a.size() + expected.vertices_of_b.size() + expected.edges.size();
-      }
-      last = last_normals(contact);
-    }
-  });
+  for_pairs([&](std::uint64_t seed) { points += sink_and_compare(seed); });
   std::printf("%zu points that have crossed\n", points);
   EXPECT_GT(points, 100u);
 }

@@ -167,6 +167,14 @@ Vec3 centroid(const Mesh& mesh) {
   return (1.0 / std::max(mesh.vertex_count(), 1)) * sum;
 }
 
+Vec3 highest(const Mesh& mesh, Vec3 direction) {
+  Vec3 highest = mesh.position(0);
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    if (dot(direction, mesh.position(v)) > dot(direction, highest)) highest = mesh.position(v);
+  }
+  return highest;
+}
+
 double extent(const Mesh& mesh) {
   if (mesh.vertex_count() == 0) return 0.0;
   return 0.5 * (mesh.positions.rowwise().maxCoeff() - mesh.positions.rowwise().minCoeff()).norm();

@@ -78,6 +78,8 @@ Mesh permuted(const Mesh& mesh, std::span<const int> vertices, std::span<const i
 // The mean of all vertices. Half the length of the diagonal of the box of all vertices.
 Vec3 centroid(const Mesh& mesh);
 double extent(const Mesh& mesh);
+// The vertex that is farthest along a direction, the first of equals.
+Vec3 highest(const Mesh& mesh, Vec3 direction);
 
 // The positions between two of the same shape: (1 - t) * from + t * to.
 Eigen::Matrix3Xd interpolated(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to, double t);

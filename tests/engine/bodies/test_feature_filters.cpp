@@ -372,54 +372,6 @@ TEST(MarginsOfVertices, GiveWhatUniformMarginsGive) {
   EXPECT_GT(compared, 500u);
 }
 
-// A collar that is sewn to what it lies on: facets of the seam never meet it, the others do.
-TEST(ExcludedLabels, KeepASeamApart) {
-  World world({.threads = 1, .outputs = {.points = true, .within_reach = true}});
-  const Mesh body = box({-1.0, -1.0, -1.0}, {1.0, 1.0, 0.0}), collar = translated(sheet(4, 2, 0.8, 0.4), {0, 0, 0.01});
-  const BodyId under = world.add_body({.positions = body.positions, .facets = body.facets, .margin = kWide}),
-               over = world.add_body({.positions = collar.positions,
-                                      .facets = collar.facets,
-                                      .surface = Surface::sheet,
-                                      .margin = kWide});
-  const std::vector<std::uint32_t> of_body(static_cast<std::size_t>(body.facet_count()), 5);
-  std::vector<std::uint32_t> of_collar;
-  for (const auto& f : collar.facets.colwise()) {
-    const double middle = (collar.positions(1, f[0]) + collar.positions(1, f[1]) + collar.positions(1, f[2])) / 3.0;
-    of_collar.push_back(middle < 0.0 ? 7 : 8);
-  }
-  world.set_feature_settings(under, {.facet_labels = of_body});
-  world.set_feature_settings(over, {.facet_labels = of_collar});
-  const LabelPair seam{.a = over, .label_a = 7, .b = under, .label_b = 5};
-  const auto vertices = [&] {
-    std::set<double> found;
-    for (const ContactPoint& point : world.detect().find_contact(under, over)->points()) {
-      if (point.b_vertices[1] < 0) found.insert(collar.positions(1, point.b_vertices[0]));
-    }
-    return found;
-  };
-  EXPECT_EQ(vertices().size(), 3u);
-  world.set_excluded_labels(seam, true);
-  EXPECT_TRUE(world.excluded_labels({.a = under, .label_a = 5, .b = over, .label_b = 7}));
-  EXPECT_FALSE(world.excluded_labels({.a = under, .label_a = 5, .b = over, .label_b = 7, .kind = LabelKind::vertex}));
-  EXPECT_EQ(vertices().size(), 2u) << "the line between both has facets of both";
-  // Labels of facets go with them, and the seam with the labels.
-  const std::vector<int> facets = first_numbers(collar.facet_count()), same = first_numbers(collar.vertex_count());
-  world.set_facets(over,
-                   {.positions = collar.positions, .facets = collar.facets, .vertex_map = same, .facet_map = facets});
-  EXPECT_EQ(vertices().size(), 2u);
-  std::ranges::fill(of_collar, 7);
-  world.set_feature_settings(over, {.facet_labels = of_collar});
-  EXPECT_TRUE(vertices().empty());
-  EXPECT_EQ(world.detect().ended().size(), 0u);
-  world.set_excluded_labels(seam, false);
-  EXPECT_EQ(world.detect().began().size(), 1u);
-  world.set_excluded_labels(seam, true);
-  world.remove_body(under);
-  const BodyId next = world.add_body({.positions = body.positions, .facets = body.facets, .margin = kWide});
-  EXPECT_EQ(next.index, under.index);
-  EXPECT_FALSE(world.excluded_labels({.a = next, .label_a = 5, .b = over, .label_b = 7})) << "of the body that went";
-}
-
 // A rope thicker than its segments are long.
 TEST(SelfContactFilters, LetARopeBeThickerThanItsSegments) {
   constexpr int kVertices = 20;

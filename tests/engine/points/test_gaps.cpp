@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tests/support/checks/detection.h"
+#include "tests/support/checks/sinking_bodies.h"
 #include "tests/support/generators/bodies.h"
 #include "tests/support/oracles/crossing_oracle.h"
 
@@ -345,6 +346,12 @@ TEST(Gaps, EqualBruteForce) {
     }
     EXPECT_GT(points, 20) << seed;
   }
+}
+
+// Three of 15,000 drawn pairs, in which a vertex grows faster than its crossing, or has no last step.
+TEST(Gaps, OfWhatSinksFastOrAnewEqualBruteForce) {
+  for (const std::uint64_t seed : {3337189590430u, 3337189593273u, 87020890730007668u})
+    EXPECT_GT(sink_and_compare(seed), 0u);
 }
 
 std::multiset<double> rounded_gaps(const Contact& contact, double unit) {
