@@ -30,8 +30,7 @@ Renumbering Step::renumbering_of(const Bodies::VertexChange& change) {
 }
 
 void Step::renumber(const Bodies::VertexChange& change, Renumbering&& renumbering) noexcept {
-  const Bodies::Regrouped& numbers = change;
-  if (!forgotten_) stages_->table.renumber({&numbers, 1});
+  if (!forgotten_) stages_->table.renumber(change);
   renumbering.publish();
 }
 

@@ -195,6 +195,11 @@ void PairTable::renumber(std::span<const Bodies::Regrouped> bodies) noexcept {
   }
 }
 
+void PairTable::renumber(const Bodies::Regrouped& body) noexcept {
+  const auto numbers_of = [&](BodyId id) { return id == body.id ? std::span(body.numbers) : std::span<const int>(); };
+  for_each_of(body.id, [&](PairRecord& record) { tact::renumber(record, numbers_of(record.a), numbers_of(record.b)); });
+}
+
 void PairTable::keep() {
   moved_.clear();
   gone_.clear();

@@ -39,13 +39,17 @@ class PairTable {
   void update(const PlanePairs& found, const Bodies& bodies, bool all);
   // Nothing moved: the pairs and the contacts are those of the last step.
   void keep();
-  // Vertices have other numbers: so have those that the records name. `bodies` are sorted by slot.
+  // Vertices of `bodies`, sorted by slot, or of one have other numbers: so have those that the records name.
   void renumber(std::span<const Bodies::Regrouped> bodies) noexcept;
+  void renumber(const Bodies::Regrouped& body) noexcept;
   // Calls visit(record) for each pair of the last step that the body is one of.
   template <class Visit>
   void for_each_of(BodyId body, const Visit& visit) {
-    for (const Entry& entry : entries_) {
-      if (entry.record->a == body || entry.record->b == body) visit(*entry.record);
+    const std::span<const broadphase::IndexPair> pairs = pairs_;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (pairs[i].a != body.index && pairs[i].b != body.index) continue;
+      // A body that was removed may stand in the pairs still: another has its slot.
+      if (candidates_[i].a == body || candidates_[i].b == body) visit(record(i));
     }
   }
   // Drops from moved() the pairs that are marked as separated.
