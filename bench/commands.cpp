@@ -6,6 +6,7 @@
 #include "bench/rivals/broadphase.h"
 #include "bench/rivals/rivals.h"
 #include "bench/scaling/busy.h"
+#include "bench/scaling/calls.h"
 #include "bench/scaling/clusters.h"
 #include "bench/scaling/grains.h"
 #include "bench/scaling/idle.h"
@@ -29,6 +30,7 @@ std::vector<Command> commands() {
       {"scaling", "one and more threads, growth with bodies and facets, the slowest of many steps", run_scaling},
       {"stages", "what each stage costs in every level of the cache, and on all threads", run_stages},
       {"idle", "steps in which nothing moved, or few of many", run_idle},
+      {"calls", "changing one body of ever more", run_calls},
       {"busy", "steps beside programs that keep the processor busy", run_busy, true},
       {"motion", "what meets between two steps, against the inclusion-based method", run_motion, true},
       {"points", "contact points, against the same step without, and with Embree's and CGAL's boxes", run_points, true},
