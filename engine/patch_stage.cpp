@@ -103,35 +103,32 @@ void PatchStage::name(BodyId a, BodyId b, const Bodies& bodies, PatchMemory& mem
   std::vector<Patch>&now = memory.now.patches, &last = memory.last.patches;
   if (now.empty() && last.empty()) return;
   count_shared(memory);
-  now_is_.assign(now.size(), -1);
-  last_is_.assign(last.size(), -1);
+  now_is_.assign(now.size(), {}), last_is_.assign(last.size(), {});
   const auto in = [](auto& list, int i) -> auto& { return list[i]; };
   for (const Match& match : matches_) {
-    if (in(now_is_, match.now) >= 0 || in(last_is_, match.last) >= 0) continue;
-    in(now_is_, match.now) = match.last;
-    in(last_is_, match.last) = match.now;
+    Partner &of_now = in(now_is_, match.now), &of_last = in(last_is_, match.last);
+    if (of_now.most < 0) of_now.most = match.last;
+    if (of_last.most < 0) of_last.most = match.now;
+    if (of_now.is >= 0 || of_last.is >= 0) continue;
+    of_now.is = match.last;
+    of_last.is = match.now;
     in(now, match.now).id = in(last, match.last).id;
   }
-  // Of the others, the partner with which they share most.
-  const auto most = [&](int Match::*own, int i) {
-    return std::ranges::find_if(matches_, [&](const Match& match) { return match.*own == i; });
-  };
   for (int i = 0; i < static_cast<int>(last.size()); ++i) {
-    if (in(last_is_, i) >= 0) continue;
-    const auto into = most(&Match::last, i);
-    if (into == matches_.end()) {
+    const auto [is, into] = in(last_is_, i);
+    if (is >= 0) continue;
+    if (into < 0) {
       events.push_back({a, b, PatchEvent::Kind::ended, in(last, i).id, 0});
-    } else if (in(now_is_, into->now) >= 0) {
-      events.push_back({a, b, PatchEvent::Kind::merged, in(last, i).id, in(now, into->now).id});
+    } else if (in(now_is_, into).is >= 0) {
+      events.push_back({a, b, PatchEvent::Kind::merged, in(last, i).id, in(now, into).id});
     }
   }
   for (int i = 0; i < static_cast<int>(now.size()); ++i) {
-    if (in(now_is_, i) >= 0) continue;
+    const auto [is, from] = in(now_is_, i);
+    if (is >= 0) continue;
     in(now, i).id = new_id(a, b, bodies, i);
-    const auto from = most(&Match::now, i);
-    const bool is_split = from != matches_.end();
-    events.push_back({a, b, is_split ? PatchEvent::Kind::split : PatchEvent::Kind::began, in(now, i).id,
-                      is_split ? in(last, from->last).id : 0});
+    events.push_back({a, b, from >= 0 ? PatchEvent::Kind::split : PatchEvent::Kind::began, in(now, i).id,
+                      from >= 0 ? in(last, from).id : 0});
   }
 }
 

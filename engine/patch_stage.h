@@ -30,12 +30,17 @@ class PatchStage {
     int shared = 0;
     int now = 0, last = 0;
   };
+  /// A patch of the other step; -1: none.
+  struct Partner {
+    int is = -1;    // the same one
+    int most = -1;  // with which it shares most
+  };
   void name(BodyId a, BodyId b, const Bodies& bodies, PatchMemory& memory, std::vector<PatchEvent>& events);
   void count_shared(const PatchMemory& memory);
 
   std::vector<PatchFinder> finders_;  // a thread each
   std::vector<Match> matches_;
-  std::vector<int> now_is_, last_is_;  // the partner of each patch; -1: none
+  std::vector<Partner> now_is_, last_is_;  // of each patch
 };
 
 }  // namespace tact

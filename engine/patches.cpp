@@ -416,6 +416,7 @@ double PatchFinder::area_spanned(const Spanned& spanned) const {
 void PatchFinder::list_last_spanning(const PatchSet* last) {
   last_spanning_.clear();
   if (last == nullptr) return;
+  last_spanned_.assign(last->spanning.size(), {});
   for (std::size_t k = 0; k < last->spanning.size(); ++k) {
     for (std::size_t i = 0; i < 4; ++i) {
       if (last->spanning[k].ids[i] != 0) last_spanning_.push_back({last->spanning[k].ids[i], k, i});
@@ -427,21 +428,26 @@ void PatchFinder::list_last_spanning(const PatchSet* last) {
 // The points of the last step that are all in this patch, of the patch that was first; none if it has no such.
 PatchFinder::Spanned PatchFinder::find_last_spanning(const PatchInput& input, const Patch& patch,
                                                      const PatchSet& last) {
-  last_spanned_.assign(last.spanning.size(), Spanned{});
+  met_.clear();
   for (const std::size_t i : counting_) {
     const std::uint64_t id = input.points[patch.points[i]].id;
     auto one = std::ranges::lower_bound(last_spanning_, id, {}, &LastSpanning::id);
     for (; one != last_spanning_.end() && one->id == id; ++one) {
-      last_spanned_[one->patch].place[one->place] = i;
-      ++last_spanned_[one->patch].count;
+      Spanned& spanned = last_spanned_[one->patch];
+      if (spanned.count == 0) met_.push_back(one->patch);
+      spanned.place[one->place] = i;
+      ++spanned.count;
     }
   }
-  for (std::size_t k = 0; k < last_spanned_.size(); ++k) {
+  std::ranges::sort(met_);
+  Spanned found;
+  for (const std::size_t k : met_) {
     const auto& ids = last.spanning[k].ids;
     const auto count = static_cast<std::size_t>(std::ranges::count_if(ids, [](std::uint64_t id) { return id != 0; }));
-    if (count > 0 && last_spanned_[k].count == count) return last_spanned_[k];
+    const Spanned spanned = std::exchange(last_spanned_[k], {});
+    if (found.count == 0 && spanned.count == count) found = spanned;
   }
-  return {};
+  return found;
 }
 
 // Those of the last step are kept while as many would span the patch, they span nearly as much as the best of this step

@@ -91,6 +91,7 @@ class PatchFinder {
   std::vector<base::Vec3> minimum_normals_;  // of its minima, each way once
   std::vector<LastSpanning> last_spanning_;  // sorted by ids
   std::vector<Spanned> last_spanned_;        // of each patch of the last step, by places in this one
+  std::vector<std::size_t> met_;             // patches of the last step with such points
 };
 
 }  // namespace tact

@@ -1,6 +1,7 @@
 #include "engine/bodies/lasting_names.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace tact {
 
@@ -20,7 +21,13 @@ LastingNames::LastingNames(const LastingNames* last, std::span<const int> was, s
     const bool keeps_name = was[v] >= 0 && keeps[was[v]] == static_cast<int>(v);
     of_vertex_.push_back(keeps_name ? name_in(last, was[v]) : next_++);
   }
-  if (last != nullptr) orders_ = last->orders_;
+  if (last == nullptr || last->orders_.empty()) return;
+  // A name that has gone never comes again.
+  std::vector<std::uint64_t> there = of_vertex_;
+  std::ranges::sort(there);
+  const auto is_there = [&](std::uint64_t name) { return std::ranges::binary_search(there, name); };
+  std::ranges::copy_if(last->orders_, std::back_inserter(orders_),
+                       [&](const Feature& names) { return std::ranges::all_of(names, is_there); });
 }
 
 // Orders that were kept before are older.
