@@ -318,8 +318,9 @@ void World::Implementation::send_meshes() {
 
 // What is kept of pairs whose guest is here now; the others have ended.
 void World::Implementation::place_waiting() {
+  VertexNumbers numbers;
   for (WaitingPair& one : waiting) {
-    if (parts.put(one.pair)) continue;
+    if (parts.put(one.pair, numbers)) continue;
     ended_waiting.push_back(
         {one.keys(), one.pair.touching, one.pair.patches, one.pair.birth_a == 0, one.pair.birth_b == 0});
   }

@@ -59,6 +59,7 @@ void World::Implementation::move(Goals goals) {
     std::vector<std::uint64_t> coming;
     for (const Parcel& parcel : parcels) coming.push_back(parcel.key);
     keys.emplace(coming);
+    ghosts_become_own(parcels);
     for (const Parcel& parcel : parcels) unpack(parcel, arrivals);
   });
   try {
@@ -94,13 +95,20 @@ World::Implementation::Leaving World::Implementation::pack(const Goals& goals) {
   for (const WaitingPair& one : waiting) {
     if (goals.contains(one.host)) pairs[one.host].push_back(one.pair);
   }
+  std::map<std::uint64_t, ByteWriter> sent_pairs;
+  for (const auto& [keys, one] : sent) {
+    for (const std::uint64_t key : {keys.first, keys.second})
+      if (goals.contains(key)) sent_pairs[key].put(keys.first, keys.second, one.to);
+  }
   std::vector<Parcel> parcels;
-  for (const auto& [key, rank] : goals) parcels.push_back({key, rank, pack(key, rank, pairs[key])});
+  for (const auto& [key, rank] : goals)
+    parcels.push_back({key, rank, pack(key, rank, pairs[key], sent_pairs[key].bytes())});
   leaving.shipment = Shipment(std::move(parcels));
   return leaving;
 }
 
-Bytes World::Implementation::pack(std::uint64_t key, int to, std::span<const SavedPair> pairs) {
+Bytes World::Implementation::pack(std::uint64_t key, int to, std::span<const SavedPair> pairs,
+                                  std::span<const std::byte> sent_pairs) {
   const OwnBody& body = at(key);
   ByteWriter writer;
   pack_body(key, pairs, writer);
@@ -110,11 +118,7 @@ Bytes World::Implementation::pack(std::uint64_t key, int to, std::span<const Sav
   for (const Subscriber& one : body.subscribers) {
     if (stays(one)) writer.put(one.rank, one.is_awake, one.version, one.positions, one.features, one.asleep_since);
   }
-  ByteWriter sent_pairs;
-  for (const auto& [keys, one] : sent) {
-    if (keys.first == key || keys.second == key) sent_pairs.put(keys.first, keys.second, one.to);
-  }
-  writer.put_all(sent_pairs.bytes());
+  writer.put_all(sent_pairs);
   pack_state(key, writer);
   return std::move(writer.bytes());
 }
@@ -138,20 +142,28 @@ void World::Implementation::pack_state(std::uint64_t key, ByteWriter& to) {
   if (body_state.pack) to.put_all(body_state.pack(key));
 }
 
-// The ghost gives way; what is kept of its pairs, whose hosts are here, waits for the next step. Hosts that leave have
-// it with them, but for what has ended.
-void World::Implementation::ghost_becomes_own(std::uint64_t key) {
-  held.shapes.erase(key);
-  const auto found = held.ghosts.find(key);
-  if (found == held.ghosts.end()) return;
-  const BodyId id = found->second.id;
-  for (SavedPair& pair : parts.pairs_of({&id, 1})) {
-    const std::uint64_t host = pair.key_a == key ? pair.key_b : pair.key_a;
+// Ghosts give way; what is kept of their pairs, whose hosts are here, waits for the next step. Hosts that leave have it
+// with them, but for what has ended.
+void World::Implementation::ghosts_become_own(std::span<const Parcel> arriving) {
+  std::map<std::uint64_t, BodyId> ghosts;
+  std::vector<BodyId> ids;
+  for (const Parcel& parcel : arriving) {
+    held.shapes.erase(parcel.key);
+    const auto found = held.ghosts.find(parcel.key);
+    if (found == held.ghosts.end()) continue;
+    ghosts[parcel.key] = found->second.id;
+    ids.push_back(found->second.id);
+  }
+  if (ids.empty()) return;
+  for (SavedPair& pair : parts.pairs_of(ids)) {
+    const std::uint64_t host = ghosts.contains(pair.key_a) ? pair.key_b : pair.key_a;
     waiting_of_ghosts.push_back({host, std::move(pair)});
   }
-  parts.take({&id, 1});
-  held.drop(id);
-  held.ghosts.erase(found);
+  parts.take(ids);
+  for (const auto& [key, id] : ghosts) {
+    held.drop(id);
+    held.ghosts.erase(key);
+  }
 }
 
 void World::Implementation::unpack(const Parcel& parcel, std::vector<Arrival>& arrivals) {
@@ -181,7 +193,6 @@ void World::Implementation::unpack(const Parcel& parcel, std::vector<Arrival>& a
 // The reverse of pack_body().
 World::Implementation::Arrival& World::Implementation::unpack_body(std::uint64_t key, ByteReader& reader,
                                                                    std::vector<Arrival>& arrivals) {
-  ghost_becomes_own(key);
   const auto shape = reader.get_bytes(), rest = reader.get_bytes(), self = reader.get_bytes();
   const BodyId id = parts.put(shape, rest, false);
   Arrival& arrival = arrivals.emplace_back();

@@ -192,12 +192,12 @@ struct World::Implementation {
   void rebalance();
   void move(Goals goals);
   Leaving pack(const Goals& goals);
-  Bytes pack(std::uint64_t key, int to, std::span<const SavedPair> pairs);
+  Bytes pack(std::uint64_t key, int to, std::span<const SavedPair> pairs, std::span<const std::byte> sent_pairs);
   void pack_body(std::uint64_t key, std::span<const SavedPair> pairs, ByteWriter& to);
   void pack_state(std::uint64_t key, ByteWriter& to);
   void unpack(const Parcel& parcel, std::vector<Arrival>& arrivals);
   Arrival& unpack_body(std::uint64_t key, ByteReader& reader, std::vector<Arrival>& arrivals);
-  void ghost_becomes_own(std::uint64_t key);
+  void ghosts_become_own(std::span<const Parcel> arriving);
   void undo(std::span<const Arrival> arrivals);
   void let_go(const Goals& goals, Leaving&& leaving);
   void take_in(std::vector<Arrival>&& arrivals);

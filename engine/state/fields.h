@@ -57,6 +57,7 @@ struct MeshState {
 };
 
 struct SavedPair;
+class VertexNumbers;
 struct FarContact;
 
 struct StateFields {
@@ -379,13 +380,13 @@ struct StateFields {
   static void mark_moved(BodyId body, bool is_on_its_way, Bodies& bodies);
   static std::vector<SavedPair> pairs_of(std::span<const BodyId> those, const Bodies& bodies, Step& step);
   static std::vector<SavedPair> all_pairs(const Bodies& bodies, Step& step);
-  static SavedPair saved_pair(std::size_t i, const Bodies& bodies, PairTable& table);
+  static SavedPair saved_pair(std::size_t i, const Bodies& bodies, PairTable& table, VertexNumbers& numbers);
   static void set_birth(BodyId body, std::uint64_t birth, Bodies& bodies) {
     bodies.slots_[body.index].body->birth = birth;
   }
   static void write_steps(const Bodies& bodies, const Step& step, StateWriter& writer);
   static void read_steps(StateReader& reader, Bodies& bodies, Step& step);
-  static bool put_pair(const SavedPair& pair, const Bodies& bodies, Step& step);
+  static bool put_pair(const SavedPair& pair, const Bodies& bodies, Step& step, VertexNumbers& numbers);
   static void write_self_of(BodyId body, Step& step, StateWriter& writer);
   static void read_self_of(StateReader& reader, BodyId body, const Bodies& bodies, Step& step);
   static void settle(Bodies& bodies, Step& step);

@@ -6,6 +6,7 @@
 
 #include "broadphase/sweep_and_prune.h"
 #include "engine/base/floating_point_mode.h"
+#include "engine/bodies/room.h"
 #include "engine/motion_stage.h"
 #include "engine/state/archives.h"
 #include "engine/state/pair_state.h"
@@ -15,22 +16,19 @@
 
 namespace tact {
 
-namespace {
-
-// The caller's numbers of a mesh's vertices, and the mesh's of the caller's.
-std::vector<int> source_numbers(const narrowphase::ClusteredMesh& mesh) {
-  std::vector<int> numbers(static_cast<std::size_t>(mesh.vertex_count()));
-  for (int v = 0; v < mesh.vertex_count(); ++v) numbers[v] = mesh.source_vertex(v);
+const VertexNumbers::OfMesh& VertexNumbers::of(const Body& body) {
+  const auto [at, is_new] = of_slot_.try_emplace(body.id.index);
+  OfMesh& numbers = at->second;
+  if (!is_new) return numbers;
+  const narrowphase::ClusteredMesh& mesh = body.mesh;
+  numbers.source.resize(static_cast<std::size_t>(mesh.vertex_count()));
+  numbers.mesh.resize(static_cast<std::size_t>(mesh.source_vertex_count()));
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    numbers.source[v] = mesh.source_vertex(v);
+    numbers.mesh[mesh.source_vertex(v)] = v;
+  }
   return numbers;
 }
-
-std::vector<int> mesh_numbers(const narrowphase::ClusteredMesh& mesh) {
-  std::vector<int> numbers(static_cast<std::size_t>(mesh.source_vertex_count()), 0);
-  for (int v = 0; v < mesh.vertex_count(); ++v) numbers[mesh.source_vertex(v)] = v;
-  return numbers;
-}
-
-}  // namespace
 
 // The bytes that write_body() makes of a body with its facets.
 void StateFields::join(std::span<const std::byte> shape, std::span<const std::byte> rest, StateWriter& writer) {
@@ -139,11 +137,12 @@ std::vector<SavedPair> StateFields::pairs_of(std::span<const BodyId> those, cons
   std::vector<char> is_wanted(bodies.slots_.size(), 0);
   for (const BodyId body : those) is_wanted[body.index] = 1;
   PairTable& table = step.stages_->table;
+  VertexNumbers numbers;
   for (std::size_t i = 0; i < table.pairs_.size(); ++i) {
     const CandidatePair& pair = table.candidates_[i];
     const bool has_a = bodies.contains(pair.a), has_b = bodies.contains(pair.b);
     if (!(has_a && is_wanted[pair.a.index] != 0) && !(has_b && is_wanted[pair.b.index] != 0)) continue;
-    saved.push_back(saved_pair(i, bodies, table));
+    saved.push_back(saved_pair(i, bodies, table, numbers));
   }
   return saved;
 }
@@ -153,7 +152,8 @@ std::vector<SavedPair> StateFields::all_pairs(const Bodies& bodies, Step& step) 
   std::vector<SavedPair> saved;
   if (step.forgotten_) return saved;
   PairTable& table = step.stages_->table;
-  for (std::size_t i = 0; i < table.pairs_.size(); ++i) saved.push_back(saved_pair(i, bodies, table));
+  VertexNumbers numbers;
+  for (std::size_t i = 0; i < table.pairs_.size(); ++i) saved.push_back(saved_pair(i, bodies, table, numbers));
   for (const std::unique_ptr<SelfRecord>& record : step.stages_->selves.records_) {
     if (record == nullptr || bodies.contains(record->body)) continue;
     const std::uint64_t key = bodies.key(record->body);
@@ -165,7 +165,7 @@ std::vector<SavedPair> StateFields::all_pairs(const Bodies& bodies, Step& step) 
   return saved;
 }
 
-SavedPair StateFields::saved_pair(std::size_t i, const Bodies& bodies, PairTable& table) {
+SavedPair StateFields::saved_pair(std::size_t i, const Bodies& bodies, PairTable& table, VertexNumbers& numbers) {
   const CandidatePair& pair = table.candidates_[i];
   PairRecord& record = table.record(i);
   SavedPair one;
@@ -177,9 +177,16 @@ SavedPair StateFields::saved_pair(std::size_t i, const Bodies& bodies, PairTable
     const Body &a = bodies.in_slot(pair.a.index), &b = bodies.in_slot(pair.b.index);
     StateWriter writer;
     writer(table.separating_axis(i));
-    renumber(record, source_numbers(a.mesh), source_numbers(b.mesh));
-    write_pair(record, writer);
-    renumber(record, mesh_numbers(a.mesh), mesh_numbers(b.mesh));
+    const VertexNumbers::OfMesh &of_a = numbers.of(a), &of_b = numbers.of(b);
+    const auto go_back = [&] { renumber(record, of_a.mesh, of_b.mesh); };
+    renumber(record, of_a.source, of_b.source);
+    try {
+      write_pair(record, writer);
+    } catch (...) {
+      go_back();
+      throw;
+    }
+    go_back();
     one.bytes = std::move(writer.bytes());
   }
   one.touching = record.touching;
@@ -194,7 +201,7 @@ void StateFields::write_steps(const Bodies& bodies, const Step& step, StateWrite
 
 void StateFields::read_steps(StateReader& reader, Bodies& bodies, Step& step) { reader(bodies.steps_, step.all_); }
 
-bool StateFields::put_pair(const SavedPair& pair, const Bodies& bodies, Step& step) {
+bool StateFields::put_pair(const SavedPair& pair, const Bodies& bodies, Step& step, VertexNumbers& numbers) {
   const auto slot_a = bodies.keys_.find(pair.key_a), slot_b = bodies.keys_.find(pair.key_b);
   if (!slot_a || !slot_b || pair.bytes.empty()) return false;
   const Body &a = bodies.in_slot(*slot_a), &b = bodies.in_slot(*slot_b);
@@ -208,10 +215,10 @@ bool StateFields::put_pair(const SavedPair& pair, const Bodies& bodies, Step& st
     StateReader reader(pair.bytes);
     reader(entry.separating_axis, record);
     check_axis(reader, entry.separating_axis);
-    renumber(record, mesh_numbers(a.mesh), mesh_numbers(b.mesh));
+    renumber(record, numbers.of(a).mesh, numbers.of(b).mesh);
     check_pair(reader, a, b, record);
-    table.pairs_.reserve(table.pairs_.size() + 1), table.candidates_.reserve(table.candidates_.size() + 1);
-    table.entries_.reserve(table.entries_.size() + 1);
+    const std::size_t count = table.pairs_.size() + 1;
+    make_room(table.pairs_, count), make_room(table.candidates_, count), make_room(table.entries_, count);
   } catch (...) {
     record.touching = false;
     record.patches.reset();
@@ -386,7 +393,9 @@ std::vector<SavedPair> WorldParts::all_pairs() const {
   bodies_.update_order();
   return StateFields::all_pairs(bodies_, step_);
 }
-bool WorldParts::put(const SavedPair& pair) { return StateFields::put_pair(pair, bodies_, step_); }
+bool WorldParts::put(const SavedPair& pair, VertexNumbers& numbers) {
+  return StateFields::put_pair(pair, bodies_, step_, numbers);
+}
 
 StateBytes WorldParts::self_of(BodyId body) const {
   StateWriter writer;

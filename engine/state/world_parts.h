@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <vector>
@@ -20,6 +21,7 @@
 
 namespace tact {
 
+struct Body;
 class Bodies;
 class MotionStage;
 class Step;
@@ -32,6 +34,19 @@ struct SavedPair {
   StateBytes bytes;                        ///< empty if one of the bodies was removed: the pair has ended
   bool touching = false;                   ///< with `patches`: which events there are if it ends
   std::vector<std::uint64_t> patches;
+};
+
+/// The caller's numbers of vertices and the meshes', made once for each body. For many pairs, while no facets change.
+class VertexNumbers {
+ public:
+  struct OfMesh {
+    std::vector<int> source;  ///< the caller's, of each vertex of the mesh
+    std::vector<int> mesh;    ///< the mesh's, of each vertex of the caller
+  };
+  const OfMesh& of(const Body& body);
+
+ private:
+  std::map<std::uint32_t, OfMesh> of_slot_;
 };
 
 /// A contact that another world found, with all that it views.
@@ -100,7 +115,7 @@ class TACT_API WorldParts {
   std::vector<SavedPair> all_pairs() const;
   /// Puts in what was kept of a pair; does nothing and returns false if one of its bodies is not here, or the pair has
   /// ended. Errors: bad_state.
-  bool put(const SavedPair& pair);
+  bool put(const SavedPair& pair, VertexNumbers& numbers);
   /// The same of a body with itself.
   StateBytes self_of(BodyId body) const;
   void put_self(BodyId body, std::span<const std::byte> bytes);
