@@ -130,15 +130,20 @@ std::vector<BodyDistance> find_nearest_bodies(const Bodies& bodies, const Neares
     if (slot == query.body.index) return;
     const BodyDistance found = distance_of(own, bodies.placed(slot), search.within);
     if (found.a_facet < 0) return;
-    nearest.insert(std::ranges::upper_bound(nearest, order(found), {}, order), found);
-    if (nearest.size() > query.count) nearest.pop_back();
-    if (nearest.size() == query.count) search.within = nearest.back().distance;
+    nearest.push_back(found);
+    std::ranges::push_heap(nearest, {}, order);
+    if (nearest.size() > query.count) {
+      std::ranges::pop_heap(nearest, {}, order);
+      nearest.pop_back();
+    }
+    if (nearest.size() == query.count) search.within = nearest.front().distance;
   };
   if (!is_plane) {
     if (own.mesh.box().empty()) return nearest;
     for_each_plane(bodies, query.filter, [&](std::uint32_t slot, const narrowphase::HalfSpace&) { look_at(slot); });
   }
   for_each_body(bodies, query.filter, search, look_at);
+  std::ranges::sort_heap(nearest, {}, order);
   return nearest;
 }
 
