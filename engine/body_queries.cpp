@@ -118,7 +118,7 @@ BodyDistance find_distance(const Bodies& bodies, const DistanceQuery& query) {
 }
 
 std::vector<BodyDistance> find_nearest_bodies(const Bodies& bodies, const NearestBodiesQuery& query) {
-  std::vector<BodyDistance> nearest;
+  std::vector<BodyDistance> nearest;  // a heap, the farthest in front
   if (query.count == 0) return nearest;
   const Body& own = placed_mesh(bodies, query.body);
   const bool is_plane = own.plane != nullptr;

@@ -30,10 +30,10 @@ class PatchStage {
     int shared = 0;
     int now = 0, last = 0;
   };
-  /// A patch of the other step; -1: none.
+  /// What a patch is in the other step; -1: none.
   struct Partner {
-    int is = -1;    // the same one
-    int most = -1;  // with which it shares most
+    int is = -1;    // the patch with the same id
+    int most = -1;  // the patch with which it shares most vertices
   };
   void name(BodyId a, BodyId b, const Bodies& bodies, PatchMemory& memory, std::vector<PatchEvent>& events);
   void count_shared(const PatchMemory& memory);

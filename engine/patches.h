@@ -90,8 +90,8 @@ class PatchFinder {
   std::vector<std::size_t> counting_;        // of the points of a patch, those that may span it
   std::vector<base::Vec3> minimum_normals_;  // of its minima, each way once
   std::vector<LastSpanning> last_spanning_;  // sorted by ids
-  std::vector<Spanned> last_spanned_;        // of each patch of the last step, by places in this one
-  std::vector<std::size_t> met_;             // patches of the last step with such points
+  std::vector<Spanned> last_spanned_;        // of each patch of the last step; empty but while one of now is looked at
+  std::vector<std::size_t> met_;             // patches of the last step that were spanned by points of this one
 };
 
 }  // namespace tact

@@ -155,11 +155,13 @@ void World::Implementation::ghosts_become_own(std::span<const Parcel> arriving) 
     ids.push_back(found->second.id);
   }
   if (ids.empty()) return;
+  std::vector<WaitingPair> pairs;
   for (SavedPair& pair : parts.pairs_of(ids)) {
     const std::uint64_t host = ghosts.contains(pair.key_a) ? pair.key_b : pair.key_a;
-    waiting_of_ghosts.push_back({host, std::move(pair)});
+    pairs.push_back({host, std::move(pair)});
   }
   parts.take(ids);
+  waiting_of_ghosts = std::move(pairs);
   for (const auto& [key, id] : ghosts) {
     held.drop(id);
     held.ghosts.erase(key);

@@ -29,7 +29,7 @@ class Layer {
   }
   void remove(std::size_t i) { world.remove_body(bodies_[i]); }
   BodyId body(std::size_t i) const { return bodies_[i]; }
-  // A body far from it, another one for each.
+  // Some other body.
   BodyId other(std::size_t i) const {
     return bodies_[static_cast<std::size_t>(others_[i]) == i ? (i + 1) % size() : others_[i]];
   }

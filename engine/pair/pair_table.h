@@ -39,7 +39,7 @@ class PairTable {
   void update(const PlanePairs& found, const Bodies& bodies, bool all);
   // Nothing moved: the pairs and the contacts are those of the last step.
   void keep();
-  // Vertices of `bodies`, sorted by slot, or of one have other numbers: so have those that the records name.
+  // Vertices have other numbers: so have those that the records name. `bodies` are sorted by slot.
   void renumber(std::span<const Bodies::Regrouped> bodies) noexcept;
   void renumber(const Bodies::Regrouped& body) noexcept;
   // Calls visit(record) for each pair of the last step that the body is one of.

@@ -17,17 +17,17 @@
 namespace tact {
 
 const VertexNumbers::OfMesh& VertexNumbers::of(const Body& body) {
-  const auto [at, is_new] = of_slot_.try_emplace(body.id.index);
-  OfMesh& numbers = at->second;
-  if (!is_new) return numbers;
+  const auto found = of_slot_.find(body.id.index);
+  if (found != of_slot_.end()) return found->second;
   const narrowphase::ClusteredMesh& mesh = body.mesh;
+  OfMesh numbers;
   numbers.source.resize(static_cast<std::size_t>(mesh.vertex_count()));
   numbers.mesh.resize(static_cast<std::size_t>(mesh.source_vertex_count()));
   for (int v = 0; v < mesh.vertex_count(); ++v) {
     numbers.source[v] = mesh.source_vertex(v);
     numbers.mesh[mesh.source_vertex(v)] = v;
   }
-  return numbers;
+  return of_slot_[body.id.index] = std::move(numbers);
 }
 
 // The bytes that write_body() makes of a body with its facets.

@@ -348,7 +348,7 @@ TEST(Gaps, EqualBruteForce) {
   }
 }
 
-// Three of 15,000 drawn pairs, in which a vertex grows faster than its crossing, or has no last step.
+// Three of 15,000 drawn pairs: vertices that sink by more than the other body is thick, or that were not inside before.
 TEST(Gaps, OfWhatSinksFastOrAnewEqualBruteForce) {
   for (const std::uint64_t seed : {3337189590430u, 3337189593273u, 87020890730007668u})
     EXPECT_GT(sink_and_compare(seed), 0u);

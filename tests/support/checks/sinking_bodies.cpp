@@ -13,7 +13,10 @@ namespace {
 
 Mesh closed_shape(Random& random) {
   const std::uint64_t seed = random.below(1 << 30);
-  if (random.chance(0.5)) return blob(1 + random.below(2), random.uniform(0.5, 1.0), 0.3, seed);
+  if (random.chance(0.5)) {
+    const double radius = random.uniform(0.5, 1.0);
+    return blob(1 + random.below(2), radius, 0.3, seed);
+  }
   return random_hull(8 + random.below(30), seed);
 }
 
