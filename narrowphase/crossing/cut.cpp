@@ -43,12 +43,9 @@ void Cut::order_hits() {
 std::span<const EdgeHit> Cut::hits_of(const EdgeVertices& source_vertices) const {
   const int first = first_hit_[source_vertices[0]];
   if (first < 0) return {};
-  const std::uint64_t key = EdgeHit{source_vertices}.key();
-  auto begin = static_cast<std::size_t>(first);
-  while (begin < hits_.size() && hits_[begin].key() < key) ++begin;
-  std::size_t end = begin;
-  while (end < hits_.size() && hits_[end].key() == key) ++end;
-  return std::span(hits_).subspan(begin, end - begin);
+  const auto found = std::ranges::equal_range(std::span(hits_).subspan(static_cast<std::size_t>(first)),
+                                              EdgeHit{source_vertices}.key(), {}, &EdgeHit::key);
+  return {found.begin(), found.end()};
 }
 
 bool Cut::is_cut_between(int v, int w) const {

@@ -30,8 +30,10 @@ bool surface_distance_below(double limit, const Position& position, const Featur
                             const PointOnSurface& from, const PointOnSurface& to, SurfaceWays& ways) {
   auto& reached = ways.reached;
   reached.clear();
+  // No way on is shorter than the straight one; the sums of lengths are rounded.
+  const double farthest = (1.0 + 1e-9) * limit;
   const auto reach = [&](double length, int vertex) {
-    if (!(length < limit)) return;
+    if (!(length < limit) || length + norm(position(vertex) - to.point) > farthest) return;
     const auto known = std::ranges::find(reached, vertex, &std::pair<double, int>::second);
     if (known == reached.end()) {
       reached.emplace_back(length, vertex);
