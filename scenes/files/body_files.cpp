@@ -172,47 +172,61 @@ ReadFrames read_frames(const Listing& listing, const Read& read) {
   return result;
 }
 
-// One body of `whole`: the vertices that `numbers` counts from 0, of which each is -1 where it is of another.
-BodyFrames part_of(const BodyFrames& whole, const std::vector<int>& numbers) {
-  std::vector<Eigen::Index> vertices, facets;
-  for (std::size_t v = 0; v < numbers.size(); ++v) {
-    if (numbers[v] >= 0) vertices.push_back(static_cast<Eigen::Index>(v));
+// The bodies of `whole`; body_of_vertex tells which of them each vertex is of.
+std::vector<BodyFrames> parts_of(const BodyFrames& whole, const std::vector<std::size_t>& body_of_vertex,
+                                 std::size_t count) {
+  struct Part {
+    std::vector<Eigen::Index> vertices, facets;
+  };
+  std::vector<Part> parts(count);
+  std::vector<int> numbers;  // of each vertex in its body
+  for (const std::size_t body : body_of_vertex) {
+    std::vector<Eigen::Index>& vertices = parts[body].vertices;
+    vertices.push_back(static_cast<Eigen::Index>(numbers.size()));
+    numbers.push_back(static_cast<int>(vertices.size()) - 1);
   }
-  const auto number_of = [&](int corner) { return numbers[static_cast<std::size_t>(corner)]; };
+  const auto body_of = [&](int corner) { return body_of_vertex[static_cast<std::size_t>(corner)]; };
   for (Eigen::Index f = 0; f < whole.facets.cols(); ++f) {
-    const Eigen::Vector3i corners = whole.facets.col(f).unaryExpr(number_of);
-    if (corners.maxCoeff() < 0) continue;
-    if (corners.minCoeff() < 0)
+    const auto corners = whole.facets.col(f);
+    if (body_of(corners[0]) != body_of(corners[1]) || body_of(corners[0]) != body_of(corners[2]))
       throw FileError(fmt::format("{}: facet {} joins vertices of two bodies", whole.files.front().string(), f));
-    facets.push_back(f);
+    parts[body_of(corners[0])].facets.push_back(f);
   }
-  BodyFrames part{.name = {}, .files = whole.files, .moves = whole.moves, .times = whole.times};
-  part.facets = whole.facets(Eigen::all, facets).unaryExpr(number_of);
-  part.vertices.assign(vertices.begin(), vertices.end());
-  for (const Eigen::Matrix3Xd& positions : whole.positions)
-    part.positions.emplace_back(positions(Eigen::all, vertices));
-  return part;
+  std::vector<BodyFrames> bodies;
+  for (const auto& [vertices, facets] : parts) {
+    BodyFrames& body = bodies.emplace_back();
+    body.files = whole.files, body.moves = whole.moves, body.times = whole.times;
+    body.facets = whole.facets(Eigen::all, facets).unaryExpr([&](int corner) {
+      return numbers[static_cast<std::size_t>(corner)];
+    });
+    body.vertices.assign(vertices.begin(), vertices.end());
+    for (const Eigen::Matrix3Xd& positions : whole.positions)
+      body.positions.emplace_back(positions(Eigen::all, vertices));
+  }
+  return bodies;
 }
 
 void add_bodies(ReadFrames&& read, const std::string& name, const std::string& short_name,
                 std::vector<BodyFrames>& bodies) {
-  const std::set<int> numbers(read.body_of_vertex.begin(), read.body_of_vertex.end());
-  if (numbers.size() < 2) {
+  std::map<int, std::size_t> places;  // of the numbers of bodies
+  for (const int body : read.body_of_vertex) places[body] = 0;
+  if (places.size() < 2) {
     bodies.push_back(std::move(read.body));
     bodies.back().name = name;
     bodies.back().short_name = short_name;
     return;
   }
-  for (const int body : numbers) {
-    std::vector<int> vertices(read.body_of_vertex.size(), -1);
-    int count = 0;
-    for (std::size_t v = 0; v < vertices.size(); ++v) {
-      if (read.body_of_vertex[v] == body) vertices[v] = count++;
-    }
-    bodies.push_back(part_of(read.body, vertices));
-    bodies.back().name = fmt::format("{}:{}", name, body);
-    bodies.back().short_name = fmt::format("{}:{}", short_name, body);
-    if (body == *numbers.begin()) bodies.back().warnings = std::move(read.body.warnings);
+  std::size_t count = 0;
+  for (auto& [body, place] : places) place = count++;
+  std::vector<std::size_t> body_of_vertex;
+  body_of_vertex.reserve(read.body_of_vertex.size());
+  for (const int body : read.body_of_vertex) body_of_vertex.push_back(places.at(body));
+  std::vector<BodyFrames> parts = parts_of(read.body, body_of_vertex, count);
+  parts.front().warnings = std::move(read.body.warnings);
+  for (const auto& [body, place] : places) {
+    parts[place].name = fmt::format("{}:{}", name, body);
+    parts[place].short_name = fmt::format("{}:{}", short_name, body);
+    bodies.push_back(std::move(parts[place]));
   }
 }
 

@@ -107,12 +107,14 @@ def _read_own(paths, most, progress):
 
 
 def _make_names_differ(bodies):
-    taken = set()
+    taken, last = set(), {}
     for body in bodies:
-        name, number = body.name, 1
+        name = body.name
+        number = last.get(name, 1)
         while body.name in taken:
             number += 1
             body.name = f"{name}#{number}"
+        last[name] = number
         taken.add(body.name)
 
 

@@ -50,10 +50,11 @@ def _contact(contact):
 
 def _frame(frame):
     rows = []
-    for number, (a, b) in enumerate(frame.bodies.tolist()):
+    for number, (a, b) in enumerate(frame.bodies[:MOST_ROWS].tolist()):
         gaps = frame.points.gaps[frame.points.contacts == number]
         pairs = int((frame.facet_pairs.contacts == number).sum())
         rows.append((a, b, _metres(frame.depths[number]), pairs, len(gaps), _metres(float(gaps.min()) if len(gaps) else None)))
+    rows += [None] * (len(frame.bodies) - len(rows))  # those that are not shown are counted
     return _table(f"frame {frame.number}", ("a", "b", "depth", "facet pairs", "points", "least gap"), rows)
 
 
