@@ -43,9 +43,10 @@ void Cut::order_hits() {
 std::span<const EdgeHit> Cut::hits_of(const EdgeVertices& source_vertices) const {
   const int first = first_hit_[source_vertices[0]];
   if (first < 0) return {};
-  const auto found = std::ranges::equal_range(std::span(hits_).subspan(static_cast<std::size_t>(first)),
-                                              EdgeHit{source_vertices}.key(), {}, &EdgeHit::key);
-  return {found.begin(), found.end()};
+  const std::span<const EdgeHit> rest = std::span(hits_).subspan(static_cast<std::size_t>(first));
+  const std::uint64_t key = EdgeHit{source_vertices}.key();
+  return {std::ranges::lower_bound(rest, key, {}, &EdgeHit::key),
+          std::ranges::upper_bound(rest, key, {}, &EdgeHit::key)};
 }
 
 bool Cut::is_cut_between(int v, int w) const {
