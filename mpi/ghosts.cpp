@@ -345,7 +345,6 @@ void World::Implementation::find_owners_of_ended() {
 // Without a ghost the ranks agree on what each has. What is kept of their pairs waits for them, or is given up.
 void World::Implementation::drop_ghosts(bool keep_pairs) {
   std::vector<BodyId> ids;
-  std::map<std::uint64_t, std::uint64_t> hosts;
   for (const auto& [key, ghost] : held.ghosts) ids.push_back(ghost.id);
   if (keep_pairs) {
     for (SavedPair& pair : parts.pairs_of(ids)) {
