@@ -72,6 +72,21 @@ constexpr auto inplace_merge(Range&& range, Place middle, Compare compare = {}, 
   return std::end(range);
 }
 template <class Range, class Compare = std::less<>, class Seen = std::identity>
+constexpr auto push_heap(Range&& range, Compare compare = {}, Seen seen = {}) {
+  std::push_heap(std::begin(range), std::end(range), tact_comparing(compare, seen));
+  return std::end(range);
+}
+template <class Range, class Compare = std::less<>, class Seen = std::identity>
+constexpr auto pop_heap(Range&& range, Compare compare = {}, Seen seen = {}) {
+  std::pop_heap(std::begin(range), std::end(range), tact_comparing(compare, seen));
+  return std::end(range);
+}
+template <class Range, class Compare = std::less<>, class Seen = std::identity>
+constexpr auto sort_heap(Range&& range, Compare compare = {}, Seen seen = {}) {
+  std::sort_heap(std::begin(range), std::end(range), tact_comparing(compare, seen));
+  return std::end(range);
+}
+template <class Range, class Compare = std::less<>, class Seen = std::identity>
 constexpr bool is_sorted(Range&& range, Compare compare = {}, Seen seen = {}) {
   return std::is_sorted(std::begin(range), std::end(range), tact_comparing(compare, seen));
 }

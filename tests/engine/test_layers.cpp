@@ -179,6 +179,29 @@ TEST(Layers, EngineComputesWithDoublesAndSpecifiedFunctionsAlone) {
   EXPECT_GT(read, 200);
 }
 
+std::set<std::string> names_in(const std::string& file, const std::regex& pattern) {
+  std::set<std::string> names;
+  for (const std::string& line : lines_of(file)) {
+    for (auto found = std::sregex_iterator(line.begin(), line.end(), pattern); found != std::sregex_iterator(); ++found)
+      names.insert((*found)[1]);
+  }
+  return names;
+}
+
+// WebAssembly's tools and Apple's have a libc++ without them, which only a build for those would tell.
+TEST(Layers, AlgorithmsOverRangesAreThereForOlderStandardLibraries) {
+  const std::set<std::string> there = names_in("cmake/platforms/early_libcxx.h", std::regex(R"(\b(\w+)\(Range&&)"));
+  std::set<std::string> all;
+  for (const std::string& file : source_files()) {
+    if (!in_engine(file)) continue;
+    for (const std::string& name : names_in(file, std::regex(R"(\branges::(\w+))"))) {
+      all.insert(name);
+      EXPECT_TRUE(there.contains(name)) << file << " uses std::ranges::" << name << ", which early_libcxx.h has not";
+    }
+  }
+  EXPECT_GT(all.size(), 20u);
+}
+
 // Its inline functions are shared with the user's program, which may be compiled for another machine.
 TEST(Layers, EigenEndsAtThePublicInterface) {
   for (const Include& include : all_includes()) {
