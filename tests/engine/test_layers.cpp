@@ -74,6 +74,16 @@ std::vector<std::string> lines_of(const std::string& file) {
   return lines;
 }
 
+// The first group of each match.
+std::set<std::string> names_in(const std::string& file, const std::regex& pattern) {
+  std::set<std::string> names;
+  for (const std::string& line : lines_of(file)) {
+    for (auto found = std::sregex_iterator(line.begin(), line.end(), pattern); found != std::sregex_iterator(); ++found)
+      names.insert((*found)[1]);
+  }
+  return names;
+}
+
 std::vector<Include> all_includes() {
   static const std::regex pattern(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"].*)");
   std::vector<Include> includes;
@@ -179,22 +189,14 @@ TEST(Layers, EngineComputesWithDoublesAndSpecifiedFunctionsAlone) {
   EXPECT_GT(read, 200);
 }
 
-std::set<std::string> names_in(const std::string& file, const std::regex& pattern) {
-  std::set<std::string> names;
-  for (const std::string& line : lines_of(file)) {
-    for (auto found = std::sregex_iterator(line.begin(), line.end(), pattern); found != std::sregex_iterator(); ++found)
-      names.insert((*found)[1]);
-  }
-  return names;
-}
-
-// WebAssembly's tools and Apple's have a libc++ without them, which only a build for those would tell.
+// libc++ before version 15 lacks them, and only a build with it, as that for WebAssembly, would tell.
 TEST(Layers, AlgorithmsOverRangesAreThereForOlderStandardLibraries) {
-  const std::set<std::string> there = names_in("cmake/platforms/early_libcxx.h", std::regex(R"(\b(\w+)\(Range&&)"));
+  const std::regex defined(R"(\b(\w+)\(Range&&)"), used(R"(\branges::(\w+))");
+  const std::set<std::string> there = names_in("cmake/platforms/early_libcxx.h", defined);
   std::set<std::string> all;
   for (const std::string& file : source_files()) {
     if (!in_engine(file)) continue;
-    for (const std::string& name : names_in(file, std::regex(R"(\branges::(\w+))"))) {
+    for (const std::string& name : names_in(file, used)) {
       all.insert(name);
       EXPECT_TRUE(there.contains(name)) << file << " uses std::ranges::" << name << ", which early_libcxx.h has not";
     }
